@@ -23,11 +23,11 @@ from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.solver_checks.validity import VALIDITY
-from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import LAYERS, OWN_KEYS
+from hexmend_app.widgets.inputs.key_form import helps
 
 ROOT = Path(__file__).resolve().parents[1]
 

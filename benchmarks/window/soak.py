@@ -156,7 +156,7 @@ def _window() -> Iterator[Window]:
     window.show()
     window.build_features()
     window.build_canvas()
-    window.features["session"].start_autosave()  # type: ignore[attr-defined]
+    window.features["session"].program_started()
     run_event_loop(0.5)
     try:
         yield window

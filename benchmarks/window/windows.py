@@ -19,7 +19,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.run.pace import Pace
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.settings.settings import store_in
 

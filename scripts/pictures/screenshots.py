@@ -20,8 +20,8 @@ from hexmend.smoothers import METHODS
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
-from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
 
 #: Screenshots to take: a function that prepares the window, the name of a gallery mesh, and the mesh's parameters.

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QDialog
 
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.features.pad.pad_dialog import PadDialog
-from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries
 from hexmend_app.shell.window import Window

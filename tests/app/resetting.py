@@ -13,7 +13,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.state.mesh.history import LIMIT
-from hexmend_app.state.run.pace import Pace
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
-from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.picture.camera_pose import CameraPose, Vector
 from hexmend_app.picture.cut_shapes import Plane
+from hexmend_app.scene.camera import steering
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.camera_request import PoseHistoryData
@@ -31,6 +32,22 @@ _REST = 300
 
 #: Minimum width and height in pixels.
 _MIN_SIZE = (320, 240)
+
+
+#: Steps of a key: rotation in degrees, panning as a fraction of the picture height, and zoom factor.
+_TURN, _PAN, _ZOOM = 15.0, 0.1, 1.2
+
+_ARROWS: dict[int, tuple[int, int]] = {
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Up: (0, 1),
+    Qt.Key.Key_Down: (0, -1),
+}
+
+_ZOOMS: dict[int, float] = {Qt.Key.Key_Plus: _ZOOM, Qt.Key.Key_Equal: _ZOOM, Qt.Key.Key_Minus: 1 / _ZOOM}
+
+#: Modifiers of other shortcuts; for example, Alt with an arrow goes back or forward.
+_OTHERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
 
 
 class CameraView(QWidget):
@@ -211,3 +228,17 @@ class _Keys(QObject):
             self._view.on_key(event)
             return True
         return super().eventFilter(watched, event)
+
+
+def move_of(event: QKeyEvent, up: str) -> Callable[[vtkCamera], None] | None:
+    """Return the camera movement of a key, given the vertical axis `up`; None for an unbound key."""
+    if event.modifiers() & _OTHERS:
+        return None
+    if event.key() in _ARROWS:
+        right, above = _ARROWS[event.key()]
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            return partial(steering.pan, right=_PAN * right, up=_PAN * above)
+        return partial(steering.turn, right=_TURN * right, up=_TURN * above, axis=up)
+    if event.key() in _ZOOMS:
+        return partial(steering.zoom, factor=_ZOOMS[event.key()])
+    return None

@@ -15,8 +15,9 @@ from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import end_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
+from hexmend_app.theme.palette import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT, set_help, smaller, tabular
+from hexmend_app.theme.style import set_help, smaller, tabular
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.

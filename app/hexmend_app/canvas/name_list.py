@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from hexmend_app.theme.style import LINE, TEXT
+from hexmend_app.theme.palette import LINE, TEXT
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: swatch, gap to the text, and space between rows.

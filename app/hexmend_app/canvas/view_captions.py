@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
-from hexmend_app.theme.palette import Role
+from hexmend_app.theme.palette import MUTED, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, WORSE, bold, set_help, smaller, tabular, tint, tool_button
+from hexmend_app.theme.style import bold, set_help, smaller, tabular, tint, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox

@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Collection, Iterable, Mapping
 from html import escape
 from io import BytesIO
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 from PIL import Image
 
 from hexmend.report.tables import Table
 from hexmend.terminal_text import WorsenedText
-from hexmend_app.report.inline_svg import inline_svg
 
 #: Options of embedded pictures: half the size of PNG without visible differences.
 _WEBP = {"quality": 90, "method": 4}
 
 #: Maximum number of columns of a printed table, without the first one.
 _COLUMNS = 7
+
+
+#: Reference to an id, or a colour.
+_NAMED = re.compile(r"#(\w+)")
+
+#: Style of all lines, which Matplotlib sets in a style sheet that would apply to the whole page.
+_LINES = "stroke-linejoin: round; stroke-linecap: butt"
+
+#: Attributes of other namespaces, and their names in HTML; None removes them.
+_FOREIGN = {"{http://www.w3.org/1999/xlink}href": "xlink:href", "{http://www.w3.org/XML/1998/namespace}space": None}
 
 
 def heading(level: int, text: str, **attributes: str) -> str:
@@ -125,3 +136,41 @@ def facts(pairs: Mapping[str, str]) -> str:
         for name, text in pairs.items()
     )
     return f"<table><tbody>{rows}</tbody></table>"
+
+
+def inline_svg(path: Path, prefix: str) -> str:
+    """Return the SVG of a file as inline HTML.
+
+    Parameters
+    ----------
+    path : Path
+        SVG file of a plot.
+    prefix : str
+        Prefix of its ids, unique within the page.
+    """
+    root = ET.parse(path).getroot()
+    for parent in list(root.iter()):
+        for part in [one for one in parent if _local_name(one.tag) in ("metadata", "style")]:
+            parent.remove(part)
+    names = {part.get("id") for part in root.iter()}
+    named = names & {name for part in root.iter() for value in part.attrib.values() for name in _NAMED.findall(value)}
+    for part in root.iter():
+        part.tag = _local_name(part.tag)
+        part.attrib = {
+            _FOREIGN.get(name, name): prefix + value if name == "id" else _renamed(value, named, prefix)
+            for name, value in part.attrib.items()
+            if _FOREIGN.get(name, name) is not None and (name != "id" or value in named)
+        }
+    root.set("style", _LINES)
+    root.set("aria-hidden", "true")  # the caption describes it
+    del root.attrib["version"]
+    return ET.tostring(root, encoding="unicode")
+
+
+def _local_name(tag: str) -> str:
+    return tag.rpartition("}")[2]
+
+
+def _renamed(value: str, names: Collection[str], prefix: str) -> str:
+    """Return the value of an attribute with a prefix before known ids; colours do not change."""
+    return _NAMED.sub(lambda found: f"#{prefix}{found[1]}" if found[1] in names else found[0], value)

@@ -20,9 +20,8 @@ from hexmend_app.shell.features import (
     first_names,
     in_order,
 )
-from hexmend_app.shell.focus_after_return import FocusAfterReturn
 from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry
-from hexmend_app.shell.letter_keys import LetterKeys
+from hexmend_app.shell.key_filters import FocusAfterReturn, LetterKeys
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
 from hexmend_app.shell.refresh_timer import RefreshTimer

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QPoint, Qt
 
 from hexmend_app.feature import Action, Panel, PanelPlace
-from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.translation import tr

@@ -10,16 +10,10 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy
 
 from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
-    AMBER,
-    BETTER,
     BLUE,
     BUTTON,
     FAINT,
     FIELD,
-    GREY,
-    INVALID_INSIDE,
-    INVERTED,
-    INVERTED_TEXT,
     LINE,
     MUTED,
     ON_ACCENT,
@@ -28,7 +22,6 @@ from hexmend_app.theme.palette import (
     STRIPE,
     TEXT,
     THEME,
-    WORSE,
     Role,
 )
 from hexmend_app.theme.style_sheet import control_sheet
@@ -227,30 +220,3 @@ def _tint(widget: QWidget) -> None:
     palette = QPalette()
     palette.setColor(_ROLE.WindowText, QColor(str(widget.property("tint"))))
     widget.setPalette(palette)
-
-
-__all__ = [
-    "AMBER",
-    "BETTER",
-    "BLUE",
-    "FAINT",
-    "FIELD",
-    "GREY",
-    "INVALID_INSIDE",
-    "INVERTED",
-    "INVERTED_TEXT",
-    "LINE",
-    "MUTED",
-    "PANEL",
-    "TEXT",
-    "WORSE",
-    "apply_style",
-    "icon",
-    "note",
-    "on_theme_change",
-    "set_help",
-    "set_variant",
-    "smaller",
-    "tabular",
-    "tint",
-]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QGridLayout, QScrollArea, QWidget
 
 
 def form_grid(parent: QWidget, widest_label: str = "") -> QGridLayout:
@@ -14,3 +15,14 @@ def form_grid(parent: QWidget, widest_label: str = "") -> QGridLayout:
     grid.setColumnStretch(1, 1)
     grid.setColumnMinimumWidth(0, parent.fontMetrics().horizontalAdvance(widest_label))
     return grid
+
+
+def scrolled(page: QWidget) -> QScrollArea:
+    """Return an area that scrolls a page vertically, fits it horizontally, and is not reached by Tab."""
+    area = QScrollArea()
+    area.setWidget(page)
+    area.setWidgetResizable(True)
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    return area

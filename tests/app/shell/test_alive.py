@@ -13,7 +13,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.tasks import mesh_repairer, mesh_saver
+from hexmend_app.state.tasks import mesh_change, mesh_saver
 from hexmend_app.state.tasks.task import running
 from hexmend_app.widgets.dialogs.waiting import WaitingDialog
 from tests.app.driving import key, open_and_wait, open_mesh, phase, smooth, turn
@@ -139,7 +139,7 @@ def doubled(window, qtbot, tmp_path):
 
 
 def test_a_mesh_is_repaired_while_the_window_is_alive(doubled, qtbot, gate):
-    session, repairing = doubled.session, gate(mesh_repairer, "_repair")
+    session, repairing = doubled.session, gate(mesh_change, "_repair")
     before = session.document.now
     assert session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set)
@@ -163,7 +163,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(doubled, qtbot, gate):
 @pytest.mark.slow
 @pytest.mark.parametrize("end", ["cancel", "open another"])
 def test_a_repair_that_is_given_up_changes_nothing(doubled, qtbot, gate, end, mesh_file):
-    session, repairing = doubled.session, gate(mesh_repairer, "_repair")
+    session, repairing = doubled.session, gate(mesh_change, "_repair")
     session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set)
     if end == "cancel":

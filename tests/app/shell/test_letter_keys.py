@@ -18,8 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.shell.focus_after_return import FocusAfterReturn
-from hexmend_app.shell.letter_keys import LetterKeys
+from hexmend_app.shell.key_filters import FocusAfterReturn, LetterKeys
 from tests.app.driving import named
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]

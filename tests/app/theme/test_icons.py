@@ -7,8 +7,7 @@ import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QIcon, QImage
 
-from hexmend_app.theme.drawn_icons import DRAWN
-from hexmend_app.theme.icons import icon
+from hexmend_app.theme.icons import DRAWN, icon
 from hexmend_app.theme.palette import FAINT, TEXT
 from tests.app.theme.contrasts import contrast
 

@@ -36,7 +36,7 @@ class FeatureAppearance(Feature):
         self._metric_before = view.look.colours.metric  # before the colours showed materials
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
-        self.panel.shading.clicked.connect(self._shade)
+        self.panel.shading.clicked.connect(lambda on: view.change(page={"shading": on}))
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
@@ -61,7 +61,7 @@ class FeatureAppearance(Feature):
                 menu="View",
                 part=1,
                 help=tr(SHADING),
-                handle=self._shade,
+                handle=lambda on: view.change(page={"shading": on}),
                 checked=lambda: view.look.page.shading,
             ),
             Action(
@@ -155,9 +155,6 @@ class FeatureAppearance(Feature):
             self._metric_before = self._view.look.colours.metric
         self.panel.choose_metric(MATERIAL.name if on else self._metric_before)
 
-    def _shade(self, on: bool) -> None:
-        self._view.change(page={"shading": on})
-
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
         self._view.isolate(hexes_of_group(kind, now.mesh, now.figures, self._movement))
@@ -174,7 +171,7 @@ class FeatureAppearance(Feature):
         """Appearance without edges and node classes that are still being computed, for which drawing would wait."""
         look = self._view.look
         structure = look.structure
-        if self.session.structure_finder.structure is None:
+        if self.session.structure_finder.result is None:
             structure = structure.without(*EDGE_LAYERS)
         if self._classes is None:
             structure = structure.without("kinds")

@@ -8,7 +8,8 @@ from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
-from hexmend_app.theme.style import LINE, on_theme_change, set_help
+from hexmend_app.theme.palette import LINE
+from hexmend_app.theme.style import on_theme_change, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QListWidget,
     QListWidgetItem,
+    QMenu,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -17,8 +18,9 @@ from PySide6.QtWidgets import (
 
 from hexmend.errors import ParameterError
 from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import WORSE, note, set_help, show_text
+from hexmend_app.theme.style import note, set_help, show_text
 from hexmend_app.translation import tr
 
 _NAME = Qt.ItemDataRole.UserRole
@@ -132,3 +134,37 @@ class CamerasDialog(QDialog):
     def _enable(self) -> None:
         for button in self._buttons:
             button.setEnabled(bool(self._name))
+
+
+class CamerasMenu(QMenu):
+    """Menu that applies a saved camera.
+
+    Parameters
+    ----------
+    cameras : SavedCameras
+
+    Signals
+    -------
+    chosen(name)
+        The user selected a camera.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
+        super().__init__(tr("Go to c&amera"), parent)
+        self._cameras = cameras
+        self.aboutToShow.connect(self._fill)
+        cameras.changed.connect(self._enable)
+        self._enable()
+
+    def _enable(self) -> None:
+        self.menuAction().setEnabled(bool(self._cameras.all))
+
+    def _fill(self) -> None:
+        self.clear()
+        for number, name in enumerate(self._cameras.all, start=1):
+            mnemonic = f"&{number % 10}  " if number <= 10 else "     "
+            action = self.addAction(mnemonic + name.replace("&", "&&"))
+            action.setStatusTip(tr("Apply the camera “{name}”.", name=name))
+            action.triggered.connect(lambda _=False, name=name: self.chosen.emit(name))

@@ -9,8 +9,7 @@ from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
-from hexmend_app.features.camera.cameras_dialog import CamerasDialog
-from hexmend_app.features.camera.cameras_menu import CamerasMenu
+from hexmend_app.features.camera.cameras_dialog import CamerasDialog, CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData

@@ -11,8 +11,9 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout,
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
@@ -191,13 +192,13 @@ class ComparePanel(QWidget):
     def _selected(self) -> str:
         """Return the name of the selected row, "" if none is."""
         rows = self._table.selectionModel().selectedRows()
-        return self._model.entries[rows[0].row()].name if rows else ""
+        return self._model.rows[rows[0].row()].name if rows else ""
 
     def _toggle(self, index: QModelIndex) -> None:
         if index.column() != METHOD:
             view = self._model.index(index.row(), VIEW)
             if self._model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
-                entry = self._model.entries[index.row()]
+                entry = self._model.rows[index.row()]
                 self.view_toggled.emit(entry.name, not entry.shown)
 
     def _enable(self) -> None:
@@ -206,6 +207,6 @@ class ComparePanel(QWidget):
             self._run.setEnabled(self.can_run)
             self.can_run_changed.emit()
         self.cancel_button.setEnabled(model.busy)
-        has_mesh = any(one.name == name and one.has_mesh for one in model.entries)
+        has_mesh = any(one.name == name and one.has_mesh for one in model.rows)
         self._use.setEnabled(self._editable and has_mesh)
-        self.save_button.setEnabled(any(one.record and one.name != INITIAL for one in model.entries) and not model.busy)
+        self.save_button.setEnabled(any(one.record and one.name != INITIAL for one in model.rows) and not model.busy)

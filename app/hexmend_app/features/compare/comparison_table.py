@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import floor, log10
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS
-from hexmend.quantity import Quantity
+from hexmend.quantity import (
+    Quantity,
+    format_microseconds,
+    format_milliseconds,
+    format_objective,
+    format_significant,
+)
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.features.compare.column_format import format_column
-from hexmend_app.theme.style import BETTER, MUTED, WORSE, bold, tabular
+from hexmend_app.theme.palette import BETTER, WORSE
+from hexmend_app.theme.style import bold, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import with_minus
 
 METHOD, VIEW, _FIRST = 0, 1, 2
@@ -26,10 +34,23 @@ KEYS = ("method", "view", *(quantity.key for quantity in LINES))
 #: Name of the row of the initial mesh.
 INITIAL = "initial"
 
-_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+#: Columns of texts, and help of the columns before those of the quantities.
+_TEXTS = (METHOD, VIEW, KEYS.index("outcome"))
+_HELP = (
+    "Select the methods to run. Click a column header to sort.",
+    "Select the results to show in views next to the current mesh.",
+)
 _Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
+
+
+#: Factor of the values, and significant digits of the smallest one in a column, of formats with varying decimals.
+_SCALES: dict[Callable[[Any], str], tuple[float, int]] = {
+    format_significant: (1.0, 2),
+    format_objective: (1.0, 7),
+    format_milliseconds: (1e3, 2),
+    format_microseconds: (1e6, 2),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +123,7 @@ def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[st
     return {name for name in values if texts[name] == texts[highest]}
 
 
-class ComparisonModel(QAbstractTableModel):
+class ComparisonModel(RowModel):
     """Model of the table, with the initial mesh always first, and check boxes for methods to run and meshes to show.
 
     Signals
@@ -117,8 +138,7 @@ class ComparisonModel(QAbstractTableModel):
     ticked = Signal()
 
     def __init__(self, ticks: Sequence[str], parent: QObject | None = None):
-        super().__init__(parent)
-        self.entries: list[ComparisonRow] = []
+        super().__init__(_FIRST + len(LINES), _TEXTS, parent)
         self.ticks = set(ticks)
         self.full = self.busy = False
         self._order = (METHOD, Qt.SortOrder.AscendingOrder)
@@ -128,24 +148,18 @@ class ComparisonModel(QAbstractTableModel):
     def fill(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows; see `ComparePanel.set_entries` for the parameters."""
         entries = self._sorted(entries)
-        same = [one.name for one in entries] == [one.name for one in self.entries]
-        if not same:
-            self.beginResetModel()
-        self.entries, self.full, self.busy = entries, full, busy
+        self.full, self.busy = full, busy
         self._texts = [column_texts(entries, quantity) for quantity in LINES]
         self._best = [best(entries, quantity, texts) for quantity, texts in zip(LINES, self._texts, strict=True)]
-        if same:  # the view keeps its selection and scroll position
-            self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
-        else:
-            self.endResetModel()
+        self.set_rows(entries, [one.name for one in entries] == [one.name for one in self.rows])
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
         """Sort the rows by a column; rows without a value come last."""
         self._order = (column, order)
         self.layoutAboutToBeChanged.emit()
-        before = [one.name for one in self.entries]
-        self.entries = self._sorted(self.entries)
-        now = [one.name for one in self.entries]
+        before = [one.name for one in self.rows]
+        self.rows = self._sorted(self.rows)
+        now = [one.name for one in self.rows]
         for index in self.persistentIndexList():
             self.changePersistentIndex(index, self.index(now.index(before[index.row()]), index.column()))
         self.layoutChanged.emit()
@@ -167,18 +181,12 @@ class ComparisonModel(QAbstractTableModel):
     def tick(self, names: Iterable[str]) -> None:
         """Select these methods only."""
         self.ticks = set(names)
-        if self.entries:
-            self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.entries) - 1, METHOD))
+        if self.rows:
+            self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.rows) - 1, METHOD))
         self.ticked.emit()
 
-    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.entries)
-
-    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
-
     def flags(self, index: QModelIndex | QPersistentModelIndex) -> Qt.ItemFlag:
-        entry, selectable = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
+        entry, selectable = self.rows[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
         if index.column() == METHOD and entry.name != INITIAL:
             return selectable | _Flag.ItemIsUserCheckable if not self.busy else selectable
         if index.column() == VIEW:
@@ -187,7 +195,7 @@ class ComparisonModel(QAbstractTableModel):
         return selectable
 
     def data(self, index: QModelIndex | QPersistentModelIndex, role: int = _Role.DisplayRole) -> Any:
-        entry, column = self.entries[index.row()], index.column()
+        entry, column = self.rows[index.row()], index.column()
         quantity = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
             if column == METHOD:
@@ -196,7 +204,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.CheckStateRole:
             return self._check(entry, column)
         if role == _Role.TextAlignmentRole:
-            return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
+            return self.alignment(column)
         if role == _Role.ToolTipRole:
             if column == VIEW and entry.has_mesh and self.full and not entry.shown:
                 return tr("Close a view first: at most four can be open.")
@@ -227,7 +235,7 @@ class ComparisonModel(QAbstractTableModel):
     def setData(self, index: QModelIndex | QPersistentModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
         if role != _Role.CheckStateRole:
             return False
-        on, name = Qt.CheckState(value) == Qt.CheckState.Checked, self.entries[index.row()].name
+        on, name = Qt.CheckState(value) == Qt.CheckState.Checked, self.rows[index.row()].name
         if index.column() == VIEW:
             self.view_toggled.emit(name, on)
         else:
@@ -236,24 +244,31 @@ class ComparisonModel(QAbstractTableModel):
             self.ticked.emit()
         return True
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
-        if orientation != Qt.Orientation.Horizontal:
-            return None
-        quantity = LINES[section - _FIRST] if section >= _FIRST else None
-        if role == _Role.DisplayRole:
-            return (
-                tr(label(quantity, [one.record for one in self.entries]))
-                if quantity
-                else (tr("Method"), tr("View"))[section]
-            )
-        if role == _Role.TextAlignmentRole:
-            return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
-        if role == _Role.ForegroundRole:
-            return QBrush(QColor(str(MUTED)))
-        if role == _Role.ToolTipRole:
-            help = tr(quantity.help) if quantity else (
-                tr("Select the methods to run. Click a column header to sort."),
-                tr("Select the results to show in views next to the current mesh."),
-            )[section]  # fmt: skip
-            return f"<qt>{help}</qt>"
-        return None
+    def title(self, column: int) -> str:
+        """Return the title of a column."""
+        if column < _FIRST:
+            return (tr("Method"), tr("View"))[column]
+        return tr(label(LINES[column - _FIRST], [one.record for one in self.rows]))
+
+    def help(self, column: int) -> str:
+        """Return the help of a column."""
+        return tr(LINES[column - _FIRST].help if column >= _FIRST else _HELP[column])
+
+
+def format_column(quantity: Quantity, records: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Format a column of values with one number of decimals; other texts are as `Quantity.of` has them.
+
+    The smallest value gets two significant digits, or the digits in which two optima may differ, and at most four
+    decimals.
+
+    >>> time = Quantity("seconds", "time, s", "", format_significant)
+    >>> format_column(time, [{"seconds": 0.0123}, {"seconds": 19.522}, {}])
+    ['0.012', '19.522', '–']
+    """
+    scale, digits = _SCALES.get(quantity.text, (0.0, 0))
+    values = [record.get(quantity.key) if scale else None for record in records]
+    positive = [abs(value) * scale for value in values if value]
+    if not positive:
+        return [quantity.of(record) for record in records]
+    decimals = min(max(digits - 1 - floor(log10(min(positive))), 0), 4)
+    return ["–" if value is None else f"{value * scale:,.{decimals}f}" for value in values]

@@ -10,9 +10,9 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.theme.palette import MUTED, TEXT, WORSE, Role
+from hexmend_app.theme.palette import BLUE, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, icon, set_help
+from hexmend_app.theme.style import icon, set_help
 from hexmend_app.translation import tr
 
 _WELCOME = "Python with mesh, quality, result and hx. Assign to mesh to change the open mesh; this can be undone.\n"

@@ -168,10 +168,6 @@ class CutPanel(QWidget):
         """Check or uncheck the handles; emits no signal."""
         self.handles_box.setChecked(shown)
 
-    def set_hex_selected(self, selected: bool) -> None:
-        """Set whether there is a selected hex, to which the sphere can be moved."""
-        self.sphere_page.set_hex_selected(selected)
-
     def settings(self) -> CutPanelSettings:
         """Return the current or proposed cut of each kind."""
         return CutPanelSettings(tuple(self._cuts.values()), self._chosen)

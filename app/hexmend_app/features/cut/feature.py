@@ -156,7 +156,7 @@ class FeatureCut(Feature):
         if self._proposed is not None:
             self.panel.restore(self._proposed)
             self._proposed = None
-        self.panel.set_hex_selected(self.session.selection.hex is not None)
+        self.panel.sphere_page.at_hex.setEnabled(self.session.selection.hex is not None)
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)

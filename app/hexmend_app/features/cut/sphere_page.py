@@ -47,10 +47,6 @@ class SpherePage(QWidget):
         self._centre.set_values(sphere.centre)
         self._radius.set_values((sphere.radius,))
 
-    def set_hex_selected(self, selected: bool) -> None:
-        """Set whether there is a selected hex, to which the centre can be moved."""
-        self.at_hex.setEnabled(selected)
-
     def _change(self, sphere: Sphere) -> None:
         self._sphere = sphere
         self.changed.emit(sphere)

@@ -20,7 +20,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.theme.spacing import clear, fill, on_grid
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.scrolled import scrolled
+from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.wording import counted
 
 _CHECKING = "Checking the mesh…"

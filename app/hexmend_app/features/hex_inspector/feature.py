@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from hexmend.boundary import NodeClass
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
-from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
+from hexmend_app.features.hex_inspector.worst_model import write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
@@ -149,8 +149,8 @@ class FeatureHexInspector(Feature):
             StatePart(
                 name="corners",
                 data=bool,
-                to_data=lambda: self.panel.corners_in_view,
-                restore=self.panel.set_corners_in_view,
+                to_data=self.panel.corners_box.isChecked,
+                restore=self.panel.corners_box.setChecked,
             ),
         )
 
@@ -194,8 +194,8 @@ class FeatureHexInspector(Feature):
         if self._seen.changed("figures", now):
             self.worst_list.set_figures(now.mesh, now.figures)
         self.worst_list.set_selected(selection.hex)
-        corners, editable = self.panel.corners_in_view, self.session.editable
-        classes = self.session.boundary_classifier.classes
+        corners, editable = self.panel.corners_box.isChecked(), self.session.editable
+        classes = self.session.boundary_classifier.result
         if self._seen.changed("selection", now, selection.hex, selection.node, corners, editable, self.canvas, classes):
             self._show_selection()
 
@@ -209,7 +209,7 @@ class FeatureHexInspector(Feature):
         node = None if selection.node is None else describe_node(mesh, selection.node)
         self.panel.show_node(node, not self.session.editable, self._boundary_class(selection.node))
         if self.canvas is not None:
-            self.canvas.select(selection.hex, self.panel.corners_in_view, node)
+            self.canvas.select(selection.hex, self.panel.corners_box.isChecked(), node)
 
     def _can_be_pinned(self) -> bool:
         node = self._selection.node

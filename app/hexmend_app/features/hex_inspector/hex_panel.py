@@ -20,19 +20,9 @@ from superqt import QFlowLayout
 
 from hexmend.quality import METRICS, Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
+from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE
 from hexmend_app.theme.spacing import fill, on_grid
-from hexmend_app.theme.style import (
-    INVERTED_TEXT,
-    MUTED,
-    TEXT,
-    WORSE,
-    bold,
-    icon,
-    note,
-    set_help,
-    tabular,
-    tint,
-)
+from hexmend_app.theme.style import bold, icon, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
@@ -157,15 +147,6 @@ class HexPanel(QWidget):
             grid.addWidget(title, row, 0)
             grid.addWidget(self._values[metric.name], row, 1)
         return grid
-
-    @property
-    def corners_in_view(self) -> bool:
-        """True if the corner qualities are shown in the view."""
-        return self.corners_box.isChecked()
-
-    def set_corners_in_view(self, on: bool) -> None:
-        """Set whether the corner qualities are shown in the view."""
-        self.corners_box.setChecked(on)
 
     def show_hex(self, details: HexDetails | None, tags: Sequence[str] = ()) -> None:
         """Show a hex and its tags; for None, the hint how to select a hex."""

@@ -156,7 +156,7 @@ class WorstList(QWidget):
     def hexes(self) -> np.ndarray:
         """Numbers of the listed hexes, worst first: (k,) int64."""
         self._refresh_if_stale()
-        return self._model.hexes
+        return self._model.rows
 
     def next(self) -> None:
         """Select the next hex of the list, or the worst if the selected hex was not selected in the list."""
@@ -177,7 +177,7 @@ class WorstList(QWidget):
             self._refresh()
 
     def _selected_row(self) -> int | None:
-        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else np.empty(0)
+        rows = np.flatnonzero(self._model.rows == self._selected) if self._selected is not None else np.empty(0)
         return int(rows[0]) if len(rows) else None
 
     def _step(self, by: int) -> None:
@@ -189,7 +189,7 @@ class WorstList(QWidget):
         self._visit(row)
 
     def _visit(self, row: int) -> None:
-        self._visited = int(self._model.hexes[row])
+        self._visited = int(self._model.rows[row])
         self.chosen.emit(self._visited)
 
     def _begin_again(self) -> None:
@@ -204,7 +204,7 @@ class WorstList(QWidget):
             return
         metric = METRICS[self.chosen_metric]
         worst = WorstHexes.of(mesh, figures, metric.name)
-        self._model.title = tr(metric.title)
+        self._model.metric = tr(metric.title)
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
         self._model.fill(worst)

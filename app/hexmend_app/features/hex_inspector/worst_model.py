@@ -2,91 +2,99 @@
 
 from __future__ import annotations
 
+import csv
+import io
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
+from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QColor
 
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend.report.documents import write_text
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
-from hexmend_app.theme.style import INVERTED_TEXT, MUTED
+from hexmend_app.theme.palette import INVERTED_TEXT
 from hexmend_app.translation import tr
+from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Hex", "In the file", "", "Scaled Jacobian", "State")
 #: Columns of the table.
 HEX, ID, VALUE, JACOBIAN, STATE = range(5)
-_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
 
-class WorstModel(QAbstractTableModel):
+class WorstModel(RowModel):
     """Table model with one row per hex.
 
     Attributes
     ----------
-    hexes : (k,) int64
-        Numbers of the hexes.
     values, jacobians : (k,) float64
         Values of the metric that sorts the list, and scaled Jacobians.
     states : list of str
         "locked", "inverted", "inside" (invalid inside) or "" for each hex.
     ids : (k,) int, optional
         Numbers of the hexes in the file.
-    title : str
+    metric : str
         Title of the metric.
     """
 
     def __init__(self, parent: QObject | None = None):
-        super().__init__(parent)
-        self.hexes = np.empty(0, np.int64)
+        super().__init__(len(_TITLES), (STATE,), parent)
+        self.rows = np.empty(0, np.int64)
         self.values = self.jacobians = np.empty(0)
         self.states: list[str] = []
         self.ids: np.ndarray | None = None
-        self.title = ""
+        self.metric = ""
 
     def fill(self, worst: WorstHexes) -> None:
-        """Replace the rows."""
-        hexes = worst.hexes
-        same = len(hexes) == len(self.hexes)
-        if not same:
-            self.beginResetModel()
-        self.hexes, self.values, self.jacobians = hexes, worst.values, worst.jacobians
-        self.states, self.ids = worst.states, worst.ids
-        if same:  # no reset: the table keeps its scroll position
-            self.dataChanged.emit(self.index(0, 0), self.index(max(len(hexes) - 1, 0), len(_TITLES) - 1))
-        else:
-            self.endResetModel()
+        """Replace the rows, which are numbers of hexes, (k,) int64."""
+        self.values, self.jacobians, self.states, self.ids = worst.values, worst.jacobians, worst.states, worst.ids
+        self.set_rows(worst.hexes, len(worst.hexes) == len(self.rows))
 
-    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.hexes)
-
-    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(_TITLES)
+    def title(self, column: int) -> str:
+        """Return the title of a column."""
+        return self.metric if column == VALUE else tr(_TITLES[column])
 
     def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         row, column = index.row(), index.column()
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
-                return f"{self.hexes[row]:,}"
+                return f"{self.rows[row]:,}"
             if column == ID:
                 return "" if self.ids is None else str(self.ids[row])
             if column == STATE:
                 return tr(self.states[row])
             return figure(float((self.values if column == VALUE else self.jacobians)[row]))
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            return _LEFT if column == STATE else _RIGHT
+            return self.alignment(column)
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
             return QBrush(QColor(str(INVERTED_TEXT)))
         return None
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        if orientation != Qt.Orientation.Horizontal:
-            return None
-        if role == Qt.ItemDataRole.DisplayRole:
-            return self.title if section == VALUE else tr(_TITLES[section])
-        if role == Qt.ItemDataRole.TextAlignmentRole:
-            return _LEFT if section == STATE else _RIGHT
-        if role == Qt.ItemDataRole.ForegroundRole:
-            return QBrush(QColor(str(MUTED)))
-        return None
+
+def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
+    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state, number in the file if it has one.
+
+    Parameters
+    ----------
+    path : path-like
+    mesh : Mesh
+    metric : str
+        A name of `hexmend.quality.METRICS`.
+
+    Raises
+    ------
+    FileError
+        If the suffix is not .csv or the file cannot be written; an existing file is left unchanged.
+    """
+    suffix_for(Path(path), "a list", (".csv",))
+    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes), metric), io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["hex", metric, "scaled-jacobian", "state", *(["id"] if worst.ids is not None else [])])
+    columns = [worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states]
+    columns += [worst.ids.tolist()] if worst.ids is not None else []
+    writer.writerows(zip(*columns, strict=True))
+    write_text(Path(path), out.getvalue())

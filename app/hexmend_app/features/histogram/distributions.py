@@ -9,8 +9,7 @@ import numpy as np
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
 from hexmend_app.features.histogram.outline import Gradient, Series
-from hexmend_app.theme.palette import KEPT
-from hexmend_app.theme.style import BLUE, GREY
+from hexmend_app.theme.palette import BLUE, GREY, KEPT
 from hexmend_app.translation import tr
 
 

@@ -15,8 +15,9 @@ from hexmend_app.features.histogram.brush import BrushView, ColourRange
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import BROKEN_TOP, Heights, Outline, Series
 from hexmend_app.scene.colour.ticks import nice_ticks
+from hexmend_app.theme.palette import BLUE, INVERTED_TEXT, MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, INVERTED_TEXT, MUTED, on_theme_change, smaller, tabular
+from hexmend_app.theme.style import on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot, log_ticks
 

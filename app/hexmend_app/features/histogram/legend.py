@@ -9,9 +9,9 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 from superqt import QFlowLayout
 
-from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.palette import BLUE, GREY, KEPT, MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, GREY, MUTED, cross_button, set_help, set_variant, smaller, tint
+from hexmend_app.theme.style import cross_button, set_help, set_variant, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.legend import Swatch, legend_entry

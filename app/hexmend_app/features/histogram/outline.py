@@ -11,8 +11,7 @@ from PySide6.QtGui import QBrush, QLinearGradient, QPainterPath, QPolygonF
 from PySide6.QtWidgets import QGraphicsPathItem
 
 from hexmend_app.features.histogram.bins import Distribution
-from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import INVERTED
+from hexmend_app.theme.palette import INVERTED, Role
 
 #: Top of a broken bar, position and width of its gap, and height of the teeth, as fractions of the axis.
 BROKEN_TOP, _GAP_AT, _GAP, _TOOTH = 1.08, 0.88, 0.05, 0.03

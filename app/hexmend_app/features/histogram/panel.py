@@ -21,9 +21,9 @@ from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import Gradient, Series
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
-from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.palette import KEPT, MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, smaller, tabular, tint
+from hexmend_app.theme.style import smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 

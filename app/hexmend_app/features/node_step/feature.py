@@ -50,7 +50,7 @@ class FeatureNodeStep(Feature):
         self._computing_timer.timeout.connect(
             lambda: self._draw_message(tr("Computing… A global method takes several seconds on a large mesh."))
         )
-        session.node_step_task.answered.connect(self._computing_timer.stop)
+        session.node_step_task.found.connect(self._computing_timer.stop)
         panel.nodes.followed.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.patch_box.toggled.connect(self._on_patch_toggled)
 
@@ -136,12 +136,13 @@ class FeatureNodeStep(Feature):
         """Compute a step in the background, or show it if it has been computed."""
         if request != self._request:
             self._request = request
+            self._task.forget()
             self._task.ask(*request)
             self._computing_timer.start()
         elif self._task.error is not None:
             self._draw_message(tr("Step not computed: {error}.", error=str(self._task.error).rstrip(".")))
-        elif self._task.step is not None:
-            self._show(self._task.step, done=False)
+        elif self._task.result is not None:
+            self._show(self._task.result, done=False)
 
     def _cancel_request(self) -> None:
         self._request = None

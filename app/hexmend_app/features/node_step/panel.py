@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from html import escape
 
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QCheckBox,
+    QFrame,
     QHBoxLayout,
     QLabel,
     QSizePolicy,
     QStackedLayout,
+    QTextBrowser,
     QVBoxLayout,
     QWidget,
 )
 
-from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
-from hexmend_app.features.node_step.step_texts import rows
+from hexmend_app.features.node_step.step_texts import Row, rows
 from hexmend_app.state.node_step import NodeStep, StepStatus
-from hexmend_app.theme.palette import DESCENT, OTHERWISE, SEARCH, TAKEN, TRIED
+from hexmend_app.theme.palette import DESCENT, MUTED, OTHERWISE, SEARCH, TAKEN, TEXT, TRIED, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, WORSE, bold, note, set_help, tabular, tint
+from hexmend_app.theme.style import bold, note, on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
@@ -46,6 +48,14 @@ _LEGEND = (
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
 )
 _NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
+
+
+_ROW = (
+    '<table width="100%" cellspacing="0" cellpadding="0" style="margin-top: 5px">'
+    '<tr><td style="color: {text}">{name}</td>'
+    '<td align="right" style="color: {colour}">{value}</td></tr></table>'
+    '<p style="color: {muted}; font-size: {size}pt; margin: 0">{meaning}</p>'
+)
 
 
 class NodePanel(QWidget):
@@ -170,3 +180,39 @@ class NodePanel(QWidget):
     def patch_alone(self) -> bool:
         """True if the hexes of the node are isolated in the view."""
         return self.patch_box.isChecked()
+
+
+class NodeFigures(QTextBrowser):
+    """Shows the figures of a node's step."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._rows: Sequence[Row] = ()
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setTabChangesFocus(True)
+        self.viewport().setAutoFillBackground(False)
+        self.document().setDocumentMargin(3)
+        set_help(self, tr("Values of the step"), "")
+        on_theme_change(self, self._render)
+
+    def show_rows(self, rows: Sequence[Row]) -> None:
+        """Replace the figures and scroll to the top."""
+        self._rows = rows
+        self._render()
+
+    def _render(self) -> None:
+        size = smaller(self.font()).pointSizeF()
+        self.setHtml(
+            "".join(
+                _ROW.format(
+                    name=escape(row.name),
+                    value=escape(row.value).replace("  ", " &nbsp;"),
+                    meaning=escape(row.meaning),
+                    text=TEXT,
+                    muted=MUTED,
+                    colour=row.colour,
+                    size=size,
+                )
+                for row in self._rows
+            )
+        )

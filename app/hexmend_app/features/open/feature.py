@@ -13,10 +13,9 @@ from PySide6.QtGui import QDropEvent
 from hexmend.errors import FileError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.open.opening_card import card
 from hexmend_app.features.open.opening_texts import missing_mesh_message, restored_message, stage_text
 from hexmend_app.features.open.recent_menu import RecentMenu
-from hexmend_app.features.open.welcome import Welcome
+from hexmend_app.features.open.welcome import Welcome, card
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture
 from hexmend_app.state.settings.recent_files import RecentFiles

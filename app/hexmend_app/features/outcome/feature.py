@@ -8,14 +8,15 @@ from functools import partial
 import numpy as np
 
 from hexmend.advice import Advice, Suggestion
+from hexmend.quality import Summary
 from hexmend.quality.file_ids import hex_ids
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
-from hexmend_app.features.outcome.notice import notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.style import show_text
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted, figure
 
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
 _RINGS = 2
@@ -172,3 +173,29 @@ class FeatureOutcome(Feature):
         mesh, advice = self.session.document.now.mesh, self._shown
         inverted = np.concatenate([advice.locked, advice.unlocked])
         return np.unique(mesh.hexes[mesh.topology.hexes_around(inverted, _RINGS)])
+
+
+def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str]:
+    """Return title and text of the notice.
+
+    Parameters
+    ----------
+    record : RunRecord
+        The run, which has ended with a result.
+    before, after : Summary
+        Of the mesh before the run and of its result.
+    """
+    if not record.result:
+        return tr("Initial mesh kept: no iteration was better"), record.message
+    inverted, invalid = (
+        figure(now) if then == now else f"{figure(then)} → {figure(now)}"
+        for then, now in ((before.inverted, after.inverted), (before.invalid, after.invalid))
+    )
+    counts = tr("{inverted} inverted · {invalid} invalid", inverted=inverted, invalid=invalid)
+    minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min, 3), j=figure(after.scaled_jacobian_min, 3))
+    seconds = record.rows[-1]["seconds"]
+    digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
+    effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
+    reason = record.message.partition(". ")[0].rstrip(".")
+    kept = "" if record.result == record.newest else tr(" · iteration {number} was kept", number=record.result)
+    return f"{counts} · {minima}", f"{effort} · {reason}{kept}"

@@ -18,11 +18,12 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
+from hexmend_app.theme.palette import AMBER, INVERTED_TEXT, TEXT, WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, bold, icon, note, set_help, show_text, tint
+from hexmend_app.theme.style import bold, icon, note, set_help, show_text, tint
 from hexmend_app.translation import tr
+from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.link_label import LinkLabel
-from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted, with_minus
 
 _HINT = (

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import set_names
-from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr

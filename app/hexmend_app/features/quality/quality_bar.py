@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity
-from hexmend_app.theme.palette import Role
+from hexmend_app.theme.palette import BETTER, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BETTER, MUTED, TEXT, WORSE, on_theme_change, smaller, tabular
+from hexmend_app.theme.style import on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 

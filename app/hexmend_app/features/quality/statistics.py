@@ -6,12 +6,13 @@ import math
 from typing import Any
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeySequence
+from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeyEvent, QKeySequence, QMouseEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFrame,
     QHeaderView,
     QMenu,
+    QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
     QWidget,
@@ -19,20 +20,10 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
+from hexmend_app.theme.palette import BETTER, MUTED, TEXT, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import (
-    BETTER,
-    MUTED,
-    TEXT,
-    WORSE,
-    icon,
-    on_theme_change,
-    set_variant,
-    smaller,
-    tabular,
-)
+from hexmend_app.theme.style import icon, on_theme_change, set_variant, smaller, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
 #: Quantities with a row; the quality of the best hex tells nothing about a mesh.
@@ -42,6 +33,10 @@ _START, _NOW, _CHANGE = 1, 2, 3
 
 #: Horizontal padding of a cell, in pixels.
 _PADDING = 10
+
+
+#: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
+LINKS = {"inverted": "inverted", "locked_inverted": "locked", "invalid": "invalid"}
 
 
 def _title(row: Quantity) -> str:
@@ -75,10 +70,6 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
     if isinstance(difference, float) and abs(difference) < 0.5e-4:
         size = "<0.0001"
     return f"{'▲' if difference > 0 else '▼'} {size}", row.better * (1 if difference > 0 else -1)
-
-
-#: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
-LINKS = {"inverted": "inverted", "locked_inverted": "locked", "invalid": "invalid"}
 
 
 class StatisticsTable(QWidget):
@@ -235,3 +226,48 @@ class StatisticsTable(QWidget):
 
 def _help(row: Quantity) -> str:
     return f"<qt><b>{tr(row.title)}</b><br>{tr(row.help)}</qt>"
+
+
+class LinkTable(QTableWidget):
+    """Table in which a link is followed by a click on its cell, or by Enter in its row.
+
+    Signals
+    -------
+    link_activated(str)
+        The user followed this link.
+    """
+
+    link_activated = Signal(str)
+
+    def __init__(self, rows: int, columns: int, parent: QWidget | None = None):
+        super().__init__(rows, columns, parent)
+        self._links: dict[tuple[int, int], str] = {}
+        self.setMouseTracking(True)
+        self.cellClicked.connect(lambda row, column: self._follow(self._links.get((row, column))))
+
+    def set_link(self, row: int, column: int, link: str | None) -> None:
+        """Make a cell a link; None removes its link."""
+        if link is None:
+            self._links.pop((row, column), None)
+        else:
+            self._links[row, column] = link
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Follow the link of the row by Enter."""
+        row = self.currentRow()
+        link = next((link for (at, _), link in self._links.items() if at == row), None)
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and link is not None:
+            self._follow(link)
+        else:
+            super().keyPressEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Show a pointing hand over links."""
+        index = self.indexAt(event.position().toPoint())
+        over = (index.row(), index.column()) in self._links
+        self.viewport().setCursor(Qt.CursorShape.PointingHandCursor if over else Qt.CursorShape.ArrowCursor)
+        super().mouseMoveEvent(event)
+
+    def _follow(self, link: str | None) -> None:
+        if link is not None:
+            self.link_activated.emit(link)

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
+from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import SUMMARY_QUANTITIES
 from hexmend_app.features.runs.dominance import KEY_FIGURES
 from hexmend_app.state.mesh.run_record import RunRecord
-from hexmend_app.theme.palette import Role
-from hexmend_app.theme.style import MUTED, TEXT, WORSE, bold, tabular
+from hexmend_app.theme.palette import MUTED, TEXT, WORSE, Role
+from hexmend_app.theme.style import bold, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.tables.row_model import RowModel
 from hexmend_app.widgets.wording import figure
 
 #: Quantities with a column.
@@ -23,8 +24,11 @@ QUANTITIES = tuple(SUMMARY_QUANTITIES[key] for key in KEY_FIGURES)
 #: Columns before those of the quantities.
 NAME, SETTINGS, FIRST = 0, 1, 2
 
-_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+_HELP = (
+    "Click a run to show its result. Grey runs are dominated: another run is no worse in any key figure, and better in "
+    "at least one.",
+    "Rules of motion, and values of the method and limits that differ from the defaults.",
+)
 _Role = Qt.ItemDataRole
 
 
@@ -66,34 +70,20 @@ class RunRow:
         return tr("Every other result is worse in at least one key figure.")
 
 
-class RunTable(QAbstractTableModel):
+class RunTable(RowModel):
     """Model of the table, with the mesh at the start first, then the runs, the oldest first."""
 
     def __init__(self, parent: QObject | None = None):
-        super().__init__(parent)
-        self.rows: Sequence[RunRow] = ()
+        super().__init__(FIRST + len(QUANTITIES), range(FIRST), parent)
 
     def fill(self, rows: Sequence[RunRow]) -> None:
         """Show rows."""
-        same = [row.record for row in rows] == [row.record for row in self.rows]
-        if not same:
-            self.beginResetModel()
-        self.rows = rows
-        if same and rows:  # the view keeps its selection and scroll position
-            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, self.columnCount() - 1))
-        elif not same:
-            self.endResetModel()
+        self.set_rows(rows, [row.record for row in rows] == [row.record for row in self.rows])
 
     def range_of(self, key: str) -> tuple[float, float]:
         """Return the smallest and the largest value of a figure, without those of dominated runs."""
         values = [row.figures[key] for row in self.rows if row.record is None or not row.dominated_by]
         return min(values), max(values)
-
-    def rowCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.rows)
-
-    def columnCount(self, parent: QModelIndex | QPersistentModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else FIRST + len(QUANTITIES)
 
     def data(self, index: QModelIndex | QPersistentModelIndex, role: int = _Role.DisplayRole) -> Any:
         row, column = self.rows[index.row()], index.column()
@@ -102,7 +92,7 @@ class RunTable(QAbstractTableModel):
             texts = name, row.settings, *(figure(row.figures[one.key]) for one in QUANTITIES)
             return texts[column]
         if role == _Role.TextAlignmentRole:
-            return _LEFT if column < FIRST else _RIGHT
+            return self.alignment(column)
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(self._colour(row, column))))
         if role == _Role.FontRole and column >= FIRST and self._is_best(row, QUANTITIES[column - FIRST].key):
@@ -124,23 +114,10 @@ class RunTable(QAbstractTableModel):
         low, high = self.range_of(key)
         return low < high and row.figures[key] == (high if SUMMARY_QUANTITIES[key].better > 0 else low)
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
-        if orientation != Qt.Orientation.Horizontal:
-            return None
-        quantity = QUANTITIES[section - FIRST] if section >= FIRST else None
-        if role == _Role.DisplayRole:
-            return tr(quantity.label) if quantity else (tr("Run"), tr("Settings"))[section]
-        if role == _Role.TextAlignmentRole:
-            return _LEFT if quantity is None else _RIGHT
-        if role == _Role.ForegroundRole:
-            return QBrush(QColor(str(MUTED)))
-        if role == _Role.ToolTipRole:
-            help = tr(quantity.help) if quantity else (
-                tr(
-                    "Click a run to show its result. Grey runs are dominated: another run is no worse in any key "
-                    "figure, and better in at least one."
-                ),
-                tr("Rules of motion, and values of the method and limits that differ from the defaults."),
-            )[section]  # fmt: skip
-            return f"<qt>{help}</qt>"
-        return None
+    def title(self, column: int) -> str:
+        """Return the title of a column."""
+        return tr(QUANTITIES[column - FIRST].label) if column >= FIRST else (tr("Run"), tr("Settings"))[column]
+
+    def help(self, column: int) -> str:
+        """Return the help of a column."""
+        return tr(QUANTITIES[column - FIRST].help) if column >= FIRST else tr(_HELP[column])

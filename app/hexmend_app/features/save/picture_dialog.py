@@ -28,9 +28,9 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
+from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.inputs.key_form import KeyForm
-from hexmend_app.widgets.scrolled import scrolled
 
 if TYPE_CHECKING:
     from hexmend_app.scene.page.page_renderer import PageRenderer

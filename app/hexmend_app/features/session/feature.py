@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.session.recovery_texts import recovery_offer
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.recovery import RecoveredSession, Recovery
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_session
+from hexmend_app.widgets.wording import counted
 
 
 class FeatureSession(Feature):
@@ -18,7 +18,7 @@ class FeatureSession(Feature):
     Attributes
     ----------
     recovery : Recovery
-        Inactive until `start_autosave` is called.
+        Inactive until `program_started` is called.
     """
 
     order = 12
@@ -57,10 +57,6 @@ class FeatureSession(Feature):
         )
 
     def program_started(self) -> None:
-        """Start the autosave."""
-        self.start_autosave()
-
-    def start_autosave(self) -> None:
         """Start autosaving, and offer sessions left by a crash."""
         self.recovery.begin()
         self.host.refresh_soon()
@@ -115,3 +111,24 @@ class FeatureSession(Feature):
         smoothing = self.session.run
         reading = self.session.opener.busy or self.session.time_reader.busy
         return not reading and (not smoothing.busy or smoothing.phase is Phase.PAUSED)
+
+
+def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
+    """Return the title and text of the offer to recover a session.
+
+    >>> from datetime import datetime
+    >>> from pathlib import Path
+    >>> from PySide6.QtCore import QLockFile
+    >>> recovery_offer(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
+    'five.vtu can be recovered'
+    """
+    runs = "" if not crashed.runs else tr(", with {runs}", runs=counted(crashed.runs, "run"))
+    when = tr("{time} on {date}", time=f"{crashed.when:%H:%M}", date=f"{crashed.when.day} {crashed.when:%B %Y}")
+    return (
+        tr("{name} can be recovered", name=crashed.name or tr("A mesh")),
+        tr(
+            "Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}{runs}.",
+            when=when,
+            runs=runs,
+        ),
+    )

@@ -32,7 +32,7 @@ class FeatureSideViews(Feature):
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that add, wipe and close side views."""
-        views, several, wiping = self._views, self._several, self._wiping
+        views, several, wiping = self._views, lambda: bool(self._views.all), lambda: self._views.wipe is not None
         return (
             Action(
                 id="beside",
@@ -111,12 +111,6 @@ class FeatureSideViews(Feature):
         now = document.now if views.all else None
         if self._seen.changed("captions", views.all, views.wipe, self._snapshots.all, now):
             self._show_captions()
-
-    def _several(self) -> bool:
-        return bool(self._views.all)
-
-    def _wiping(self) -> bool:
-        return self._views.wipe is not None
 
     def _show_in_side_view(self) -> None:
         moment = self.session.timeline.shown_iteration

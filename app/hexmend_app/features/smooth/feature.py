@@ -27,8 +27,8 @@ from hexmend_app.features.smooth.pace_actions import pace_actions
 from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
-from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr

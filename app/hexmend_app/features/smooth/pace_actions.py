@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend_app.feature import Action
-from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import RunController
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
 

@@ -25,8 +25,9 @@ from hexmend_app.features.smooth.set_rules import (
     rules_of_set,
     with_set_rules,
 )
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import WORSE, note, set_help, show_text
+from hexmend_app.theme.style import note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink

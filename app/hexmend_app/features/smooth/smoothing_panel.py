@@ -12,9 +12,9 @@ from hexmend_app.features.smooth.rule_form import RuleForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.state.run.run_setup import RunSetup
-from hexmend_app.theme.palette import Role
+from hexmend_app.theme.palette import MUTED, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import MUTED, WORSE, labelled, note, set_help, tabular, tint
+from hexmend_app.theme.style import labelled, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section

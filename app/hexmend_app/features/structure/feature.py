@@ -65,8 +65,8 @@ class FeatureStructure(Feature):
         if not session.document.is_open:
             return
         self._classify_boundary()
-        if self._seen.changed("found", session.structure_finder.structure, session.document.start):
-            self.panel.set_found(session.structure_finder.structure)
+        if self._seen.changed("found", session.structure_finder.result, session.document.start):
+            self.panel.set_found(session.structure_finder.result)
         now = session.document.now
         of_mesh = now.mesh.cells, now.mesh.materials, now.mesh.target, now.mesh.mid_nodes
         if self._seen.changed("legends", session.document.start, *of_mesh):

@@ -25,7 +25,7 @@ class FeatureTheme(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(theme_choice.apply_theme)
 
     def actions(self) -> Sequence[Action]:
         """Return one action for each theme."""
@@ -47,6 +47,3 @@ class FeatureTheme(Feature):
         if on and choice is not theme_choice.chosen():
             theme_choice.choose(choice)
             self.host.refresh_soon()
-
-    def _on_desktop(self) -> None:
-        theme_choice.apply_theme()

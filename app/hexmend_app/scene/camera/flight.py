@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkMath
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.picture.camera_pose import CameraPose
@@ -25,13 +24,14 @@ class Flight:
     """
 
     def __init__(self, camera: vtkCamera, goal: CameraPose):
+        from scipy.spatial.transform import Rotation, Slerp  # not needed before the first flight
+
         self._camera, self.goal = camera, goal
         start = pose_of(camera)
         self._focus = np.array(start.focal), np.array(goal.focal)
         self._distance = start.distance, goal.distance
         self._scale = start.scale, goal.scale
-        first, last = _quaternion(start), _quaternion(goal)
-        self._rotation = first, last if first @ last >= 0 else -last  # the shorter rotation
+        self._rotation = Slerp((0, 1), Rotation.from_matrix([_axes(start), _axes(goal)]))
 
     def at(self, share: float) -> None:
         """Set the camera to the pose at a fraction of the flight, 0 to 1, which starts and ends smoothly."""
@@ -41,7 +41,7 @@ class Flight:
         s = share * share * (3 - 2 * share)
         focus = (1 - s) * self._focus[0] + s * self._focus[1]
         distance, scale = (a ** (1 - s) * b**s if a > 0 and b > 0 else b for a, b in (self._distance, self._scale))
-        _, upwards, backwards = _axes(_slerp(*self._rotation, s))
+        _, upwards, backwards = self._rotation(s).as_matrix().T
         camera = self._camera
         camera.SetFocalPoint(focus)
         camera.SetPosition(focus + distance * backwards)
@@ -50,27 +50,10 @@ class Flight:
         camera.SetParallelScale(scale)
 
 
-def _quaternion(pose: CameraPose) -> np.ndarray:
-    """Return the rotation of a camera pose as a unit quaternion, (4,)."""
+def _axes(pose: CameraPose) -> np.ndarray:
+    """Return the right, up and backward vectors of a camera as the columns of (3, 3)."""
     backwards = np.subtract(pose.position, pose.focal)
     backwards /= np.linalg.norm(backwards)
     right = np.cross(pose.up, backwards)
     right /= np.linalg.norm(right)
-    quaternion = np.empty(4)
-    vtkMath.Matrix3x3ToQuaternion(np.column_stack([right, np.cross(backwards, right), backwards]), quaternion)
-    return quaternion
-
-
-def _axes(quaternion: np.ndarray) -> np.ndarray:
-    """Return the right, up and backward vectors of a rotated camera as the rows of (3, 3)."""
-    matrix = np.empty((3, 3))
-    vtkMath.QuaternionToMatrix3x3(quaternion, matrix)
-    return matrix.T
-
-
-def _slerp(first: np.ndarray, last: np.ndarray, share: float) -> np.ndarray:
-    """Interpolate between unit quaternions on the sphere."""
-    angle = np.arccos(min(first @ last, 1.0))
-    if angle < 1e-6:
-        return last
-    return (np.sin((1 - share) * angle) * first + np.sin(share * angle) * last) / np.sin(angle)
+    return np.column_stack([right, np.cross(backwards, right), backwards])

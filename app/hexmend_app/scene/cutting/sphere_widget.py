@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkLineRepresentation, vtkLineWidget2
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkPropCollection
+from vtkmodules.vtkRenderingCore import vtkPropCollection
 
 from hexmend_app.picture.cut_shapes import Sphere
 from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.layers.flat_actor import offset_depth
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
@@ -41,16 +41,9 @@ class SphereWidget(Handles):
         shape.GetSelectedLineProperty().SetColor(0.84, 0.37, 0.0)
         _draw_on_top(shape)
         self._shape = shape
-        self._circles = vtkActor()
-        self._circles.SetPickable(False)
+        self._circles = flat_actor(pane.renderer)
         self._circles.SetUseBounds(False)
-        self._circles.GetProperty().SetLighting(False)
-        self._unit = _unit_circles()
-        mapper = vtkPolyDataMapper()
-        mapper.SetInputData(self._unit)
-        self._circles.SetMapper(mapper)
-        self._circles.SetVisibility(False)
-        pane.renderer.AddActor(self._circles)
+        self._circles.GetMapper().SetInputData(_unit_circles())
         self.set_dark(False)
         widget = vtkLineWidget2()
         widget.SetRepresentation(shape)
@@ -127,6 +120,5 @@ def _unit_circles() -> pv.PolyData:
     angle = np.linspace(0, 2 * np.pi, _CORNERS, endpoint=False)
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(_CORNERS)], axis=1)
     points = np.concatenate([np.roll(circle, axis, axis=1) for axis in range(3)])
-    loop = np.append(np.arange(_CORNERS), 0)
-    lines = np.concatenate([[len(loop), *(loop + axis * _CORNERS)] for axis in range(3)])
-    return pv.PolyData(points, lines=lines)
+    circles = np.append(np.arange(_CORNERS), 0) + _CORNERS * np.arange(3)[:, None]
+    return pv.PolyData(points, lines=pv.CellArray.from_regular_cells(circles))  # type: ignore[arg-type]

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Generator, Iterable, Sequence
+from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera
 
+from hexmend.errors import FileError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
+from hexmend.terminal_text import install_hint
 from hexmend_app.picture.appearance import Look, Since
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.film.film_frames import FilmFrame
 from hexmend_app.scene.film.film_page import FilmPage, InitialPicture
 from hexmend_app.scene.film.frame_parts import pixel_ratio_of, strip_height
-from hexmend_app.scene.film.movie import check_installed, write_movie
 from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
@@ -34,6 +37,13 @@ _COLOURS, _BAR, _AXES = 114, 120, 16
 
 #: Duration of the first and the last frame, in frames.
 _PAUSE = 8
+
+
+#: Constant rate factor of x264; 18 is visually almost lossless.
+_QUALITY = "18"
+
+#: Code of the colour space that players assume (ITU-T H.273): BT.709, as in HDTV.
+_BT709 = 1
 
 
 def pictures(
@@ -193,3 +203,46 @@ def _colours_along(line: np.ndarray) -> list[tuple[int, ...]]:
     in_order = list(counts)
     sample = [in_order[round(i)] for i in np.linspace(0, len(in_order) - 1, min(_BAR, len(in_order)))]
     return list(dict.fromkeys([*sample, *(colour for colour, _ in counts.most_common(4))]))
+
+
+def check_installed(path: Path) -> None:
+    """Raise `FileError` if PyAV is missing."""
+    if find_spec("av") is None:
+        raise FileError(
+            path,
+            "a film cannot be written as .mp4 without PyAV",
+            f"For .mp4 {install_hint('film')} (its FFmpeg is under the GPL, hence no part of [app]), or use .gif, "
+            ".webp or .png.",
+        )
+
+
+def write_movie(path: Path, frames: Sequence[Image.Image], lengths: Sequence[int], rate: float) -> None:
+    """Write frames as MP4; a side of odd length is padded by a white pixel, as H.264 requires.
+
+    Parameters
+    ----------
+    path : Path
+        Path of a temporary file; the caller replaces an existing file atomically.
+    frames : sequence of Image
+    lengths : sequence of int
+        Duration of each frame, in frames.
+    rate : float
+        Frames per second.
+    """
+    import av
+
+    width, height = (side + side % 2 for side in frames[0].size)
+    with av.open(str(path), "w", format="mp4", options={"movflags": "+faststart"}) as container:
+        stream = container.add_stream("libx264", rate=Fraction(rate).limit_denominator(1000))
+        stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
+        stream.options = {"crf": _QUALITY, "preset": "medium"}
+        codec = stream.codec_context
+        codec.colorspace = codec.color_primaries = codec.color_trc = codec.color_range = _BT709
+        for image, length in zip(frames, lengths, strict=True):
+            whole = Image.new("RGB", (width, height), "white")
+            whole.paste(image.convert("RGB"), (0, 0))
+            for _ in range(length):
+                frame = av.VideoFrame.from_image(whole)
+                frame = frame.reformat(format="yuv420p", dst_colorspace="ITU709", dst_color_range="MPEG")
+                container.mux(stream.encode(frame))
+        container.mux(stream.encode())

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkFiltersCore import vtkBinnedDecimation
 
 from hexmend_app.scene.colour.colouring import are_invalid
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of, set_edge_flags, set_normals
 from hexmend_app.scene.layers.surface import SHADED, coloured, colours_of, hexes_of
+
+#: Number of faces above which a skin is decimated while the camera moves; they take 50 ms in software rendering.
+MANY = 30_000
+
+_DIVISIONS = 64  # of each side of the bounding box, so that a grid cell is about ten pixels wide
 
 
 def shaded_surface(poly: pv.PolyData, light: np.ndarray | None) -> pv.PolyData:
@@ -42,3 +48,27 @@ def shaded(colours: np.ndarray, light: np.ndarray) -> np.ndarray:
     """Return colours, (k, 3) uint8, shaded by ambient light, (k,) float64; invalid hexes are not shaded."""
     brightness = np.where(are_invalid(colours), 1.0, occlusion.brightness(light))
     return (colours * brightness[:, None] + 0.5).astype(np.uint8)
+
+
+def decimated(skin: pv.PolyData) -> pv.PolyData:
+    """Cluster a surface into triangles of about the size of a grid cell, each in the colour of one of its faces.
+
+    Parameters
+    ----------
+    skin : pyvista.PolyData
+        Quads, with colours and hexes (see `coloured`).
+    """
+    quads = skin.regular_faces
+    data = pv.PolyData.from_regular_faces(skin.points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    data.cell_data["face"] = np.tile(np.arange(len(quads)), 2)
+    bins = vtkBinnedDecimation()
+    bins.SetInputData(data)
+    bins.SetNumberOfDivisions(_DIVISIONS, _DIVISIONS, _DIVISIONS)
+    bins.SetPointGenerationModeToUseInputPoints()
+    bins.ProduceCellDataOn()
+    bins.ProducePointDataOff()
+    bins.Update()
+    coarse = pv.wrap(bins.GetOutput())
+    faces = np.asarray(coarse.cell_data["face"]).astype(np.int64)
+    coarse.clear_data()
+    return coloured(coarse, colours_of(skin)[faces], hexes_of(skin)[faces])

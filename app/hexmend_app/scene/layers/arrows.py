@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.picture.appearance import Arrows
 from hexmend_app.picture.displacement import ROUNDING, Displacement
-from hexmend_app.scene.layers.flat_actor import offset_depth
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
@@ -207,15 +207,7 @@ def _actors(renderer: vtkRenderer, pixel_ratio: float) -> tuple[vtkActor, vtkAct
 
 
 def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vtkActor:
-    mapper = vtkPolyDataMapper()
-    mapper.SetScalarVisibility(False)
-    offset_depth(mapper, lines=depth, polygons=depth, slope=-1.0)
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.PickableOff()
-    prop = actor.GetProperty()
-    prop.SetColor(rgb(colour))
-    prop.SetLineWidth(width)
-    prop.LightingOff()
-    renderer.AddActor(actor)
+    actor = flat_actor(renderer, width, colour=colour)
+    offset_depth(actor.GetMapper(), lines=depth, polygons=depth, slope=-1.0)
+    actor.VisibilityOn()
     return actor

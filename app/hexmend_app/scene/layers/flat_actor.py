@@ -10,8 +10,10 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderer,
 )
 
+from hexmend_app.theme.palette import rgb
 
-def flat_actor(renderer: vtkRenderer, width: float = 1.0, opacity: float = 1.0) -> vtkActor:
+
+def flat_actor(renderer: vtkRenderer, width: float = 1.0, opacity: float = 1.0, colour: str = "#ffffff") -> vtkActor:
     """Add a hidden, unpickable actor without data to a renderer, and return it.
 
     Parameters
@@ -20,6 +22,8 @@ def flat_actor(renderer: vtkRenderer, width: float = 1.0, opacity: float = 1.0) 
     width : float
         Line width in pixels.
     opacity : float
+    colour : str
+        As #rrggbb.
     """
     mapper = vtkPolyDataMapper()
     mapper.ScalarVisibilityOff()
@@ -31,6 +35,7 @@ def flat_actor(renderer: vtkRenderer, width: float = 1.0, opacity: float = 1.0) 
     prop.LightingOff()
     prop.SetLineWidth(width)
     prop.SetOpacity(opacity)
+    prop.SetColor(rgb(colour))
     renderer.AddActor(actor)
     return actor
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
@@ -13,7 +12,6 @@ from hexmend_app.scene.colour.colouring import are_invalid
 from hexmend_app.scene.geometry.edge_flags import edge_flags
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.surface import colours_of
-from hexmend_app.theme.palette import rgb
 
 # Colour, width in pixels, and depth offset in VTK's units: the dark rim, and the light line in front of it. The light
 # line contrasts with the dark end of every colour map and with magenta, the rim with the light end. The rim is a dark
@@ -120,17 +118,13 @@ def _first_at_position(points: np.ndarray, tolerance: float) -> np.ndarray:
 
 def _lines(poly: pv.PolyData, ends: np.ndarray) -> pv.PolyData:
     """Build lines from pairs of point numbers, (k, 2) int64; the points are shared."""
-    cells = vtkCellArray()
-    cells.SetData(2, numpy_to_vtkIdTypeArray(np.ascontiguousarray(ends).ravel(), deep=True))
     lines = pv.PolyData()
     lines.SetPoints(poly.GetPoints())
-    lines.SetLines(cells)
+    lines.SetLines(pv.CellArray.from_regular_cells(ends))
     return lines
 
 
 def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vtkActor:
-    actor = flat_actor(renderer, width)
-    actor.GetProperty().SetColor(rgb(colour))
-    mapper = actor.GetMapper()
-    offset_depth(mapper, lines=depth, slope=-1.0)
+    actor = flat_actor(renderer, width, colour=colour)
+    offset_depth(actor.GetMapper(), lines=depth, slope=-1.0)
     return actor

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
-from hexmend_app.scene.layers.flat_actor import offset_depth
+from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.theme.palette import rgb
 
 _RIM = "#11151c"
 _COLOURS = "colours"
@@ -53,19 +52,14 @@ class Marks:
         self.hide()
 
     def _actor(self, renderer: vtkRenderer, coloured: bool) -> vtkActor:
-        mapper = vtkPolyDataMapper()
+        actor = flat_actor(renderer, colour=_RIM)
+        mapper = actor.GetMapper()
         mapper.SetInputData(self.poly)
         mapper.SetScalarVisibility(coloured)
         mapper.SetScalarModeToUseCellFieldData()
         mapper.SelectColorArray(_COLOURS)
         mapper.SetColorModeToDirectScalars()
         offset_depth(mapper, lines=_LINE_DEPTHS[coloured], points=_POINT_DEPTHS[coloured], slope=-1.0)
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        actor.PickableOff()
-        actor.GetProperty().SetColor(rgb(_RIM))
-        actor.GetProperty().LightingOff()
-        renderer.AddActor(actor)
         return actor
 
     @property
@@ -107,9 +101,8 @@ class Marks:
         index = index.reshape(cells.shape)
         if curves is not None:
             self.nodes, index = np.empty(0, np.int64), curves.chains
-        width = index.shape[1]
-        rows = np.column_stack([np.full(len(cells), width), index]).ravel()
-        self.poly = pv.PolyData(self._places(points), **{"lines" if width > 1 else "verts": rows})  # type: ignore[arg-type]
+        rows = pv.CellArray.from_regular_cells(index)  # type: ignore[arg-type]
+        self.poly = pv.PolyData(self._places(points), **{"lines" if index.shape[1] > 1 else "verts": rows})
         self.poly.cell_data[_COLOURS] = colours
         for actor in (self._rims, self.filled):
             actor.GetMapper().SetInputData(self.poly)

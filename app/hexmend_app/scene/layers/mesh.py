@@ -15,8 +15,7 @@ from hexmend_app.scene.cutting.curved_sections import curved_sections
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
 from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
-from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
-from hexmend_app.scene.geometry.shaded_surface import shaded, shaded_surface
+from hexmend_app.scene.geometry.shaded_surface import MANY, decimated, shaded, shaded_surface
 from hexmend_app.scene.geometry.skin import Faces, Skin
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline
 from hexmend_app.scene.layers.surface import Surface, colours_of, hexes_of, quads, recoloured, set_colours, set_points

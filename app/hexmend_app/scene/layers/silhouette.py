@@ -134,4 +134,4 @@ class Silhouette:
 def _lines(points: np.ndarray, chains: np.ndarray) -> pv.PolyData:
     """Build lines from points, (k, 3), and the point numbers of lines or chains of lines, (e, 2) or more columns."""
     ends = chains if chains.shape[1] == 2 else segments(chains)
-    return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())
+    return pv.PolyData(points, lines=pv.CellArray.from_regular_cells(ends))

@@ -10,15 +10,75 @@ from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.scene.layers.edge_lines import EDGE, tone_edges
-from hexmend_app.scene.layers.soft_light import light_softly
 from hexmend_app.theme.palette import rgb
 
+#: Colour of edges; on dark faces, edges are lighter than the face instead.
+EDGE = "#1b1f2a"
+
+# Lines of VTK's fragment shader that draw an edge; emix is the coverage of the pixel by the edge.
+_DIFFUSE = "diffuseColor = mix(diffuseColor, vec3(0.0), emix * edgeOpacity);"
+_AMBIENT = "ambientColor = mix( ambientColor, edgeColor, emix * edgeOpacity);"
+
+# The shader has the distances of a pixel from the three lines that bound its triangle, and the normals of the lines.
+# The smallest height of the triangle, over the side opposite to the largest angle, follows from the law of sines:
+#     h = (s_0 d_0 + s_1 d_1 + s_2 d_2) / max(s_0, s_1, s_2),    s_i the sine of the angle opposite to line i.
+# Edges fade as the height approaches the line width; for a square with a side of four pixels, h = 2.8.
+_FADE = """
+vec2 n0 = edgeEqn[0].xy, n1 = edgeEqn[1].xy, n2 = edgeEqn[2].xy;
+vec3 sines = abs(vec3(n1.x * n2.y - n1.y * n2.x, n2.x * n0.y - n2.y * n0.x, n0.x * n1.y - n0.y * n1.x));
+vec3 outside = vec3(edist[0] - edgeEqn[0].z, edist[1] - edgeEqn[1].z, edist[2] - edgeEqn[2].z);
+float height = dot(sines, outside) / max(max(sines.x, sines.y), max(sines.z, 1e-6));
+emix *= smoothstep(1.0, 2.8, height / lineWidth);
+vec3 face = ambientColor / max(ambientIntensity, 1e-3);
+vec3 tone = dot(face, vec3(0.30, 0.59, 0.11)) < 0.21 ? face + 0.33 : edgeColor;
+"""
+
+
+#: Ambient and diffuse share of the light. A face towards the viewer has the colour of the legend, exactly where the two
+#: shares and the position of the light (see `hexmend_app.scene.views.pane`) add up to 1; no face that is seen from the
+#: front has less than two thirds of it, so that shades are not mistaken for other values.
+_AMBIENT_SHARE, _DIFFUSE_SHARE = 0.568, 0.46
+
+#: Lines of VTK's fragment shader for a light, without and with edges; the angle of a soft light counts beyond 90°.
+_NORMALS = ("normalVCVSOutput", "normalVCGSOutput")
+
+_HARD = "df = max(0.0, dot({normal}, -lightDirectionVC0));"
+
+_SOFT = "df = 0.5 + 0.5 * dot({normal}, -lightDirectionVC0);"
+
 _COLOURS = "colours"
+
 _HEX = "hex"
 
 #: Name of the point colours of fine polygons.
 SHADED = "shaded"
+
+
+def tone_edges(actor: vtkActor, divisions: int = 1) -> None:
+    """Draw the edges of an actor lighter on dark polygons, and paler on small ones.
+
+    Polygons may be parts of faces whose edges are divided into `divisions` each; edges fade on small faces, not parts.
+    Edges stay unchanged if the shader of this version of VTK has other lines.
+    """
+    prop = actor.GetShaderProperty()
+    fade = _FADE if divisions == 1 else _FADE.replace("height / lineWidth", f"{divisions:.1f} * height / lineWidth")
+    prop.AddFragmentShaderReplacement(_DIFFUSE, False, fade + _DIFFUSE, False)
+    prop.AddFragmentShaderReplacement(_AMBIENT, False, _AMBIENT.replace("edgeColor", "tone"), False)
+
+
+def light_softly(actor: vtkActor) -> None:
+    """Light the polygons of an actor softly.
+
+    A light of the size of half a sphere contributes (1 + cos t) / 2 at an angle t between its middle and the normal of
+    a face, instead of max(0, cos t). One light in the shader thus replaces a kit of a key light and fill lights. Light
+    is harder if the shader of this version of VTK has other lines.
+    """
+    prop = actor.GetProperty()
+    prop.SetAmbient(_AMBIENT_SHARE)
+    prop.SetDiffuse(_DIFFUSE_SHARE)
+    for normal in _NORMALS:
+        hard, soft = (line.format(normal=normal) for line in (_HARD, _SOFT))
+        actor.GetShaderProperty().AddFragmentShaderReplacement(hard, False, soft, False)
 
 
 class Surface:

@@ -76,7 +76,7 @@ class TranslucentSurface:
             return
         poly, lines = pv.PolyData.from_regular_faces(points, quads), pv.PolyData()
         lines.SetPoints(poly.GetPoints())
-        lines.lines = with_lengths(edges_of(quads))
+        lines.SetLines(pv.CellArray.from_regular_cells(edges_of(quads)))
         self.set_data(poly, lines)
 
     def set_faces(self, frame: Frame, points: np.ndarray, faces: Faces) -> None:
@@ -101,7 +101,7 @@ class TranslucentSurface:
         poly, lines = curved.quads(points, np.zeros((curved.count, 3), dtype=np.uint8)), pv.PolyData()
         if curved.count:
             lines.SetPoints(poly.GetPoints())
-            lines.lines = with_lengths(outlines(poly, np.ones(poly.n_cells, dtype=bool))[0])
+            lines.SetLines(pv.CellArray.from_regular_cells(outlines(poly, np.ones(poly.n_cells, dtype=bool))[0]))
         self.set_data(poly, lines)
 
     def show(self) -> None:
@@ -121,8 +121,3 @@ def edges_of(*faces: np.ndarray) -> np.ndarray:
     """Return the unique edges, (e, 2), of arrays of polygons, each (k, corners)."""
     ends = [np.stack([polygons, np.roll(polygons, 1, axis=1)], axis=-1).reshape(-1, 2) for polygons in faces]
     return np.unique(np.sort(np.concatenate(ends), axis=1), axis=0)
-
-
-def with_lengths(rows: np.ndarray) -> np.ndarray:
-    """Return cells, (k, width), in VTK's flat layout: each row is preceded by its length."""
-    return np.column_stack([np.full(len(rows), rows.shape[1]), rows]).ravel()

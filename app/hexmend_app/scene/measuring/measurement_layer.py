@@ -9,7 +9,6 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from hexmend_app.picture.appearance import Measurement
 from hexmend_app.scene.layers.flat_actor import flat_actor, label_actor, offset_depth
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import rgb
 
 _LINE, _RIM = "#ffffff", "#11151c"
 #: Distance of the angle's text from its corner, as a fraction of the shorter line.
@@ -32,12 +31,10 @@ class MeasurementLayer:
         self._poly = pv.PolyData()
         self._actors = []
         for colour, width, offset in ((_RIM, 5, 0), (_LINE, 2, _IN_FRONT)):
-            actor = flat_actor(self._layer, width * pixel_ratio)
+            actor = flat_actor(self._layer, width * pixel_ratio, colour=colour)
             actor.GetMapper().SetInputData(self._poly)
-            actor.GetProperty().SetColor(rgb(colour))
             actor.GetProperty().SetPointSize((width + 6) * pixel_ratio)
-            mapper = actor.GetMapper()
-            offset_depth(mapper, lines=offset, points=offset)
+            offset_depth(actor.GetMapper(), lines=offset, points=offset)
             self._actors.append(actor)
         # Two distances and an angle.
         self._texts = [label_actor(self._text_layer, round(15 * pixel_ratio)) for _ in range(3)]

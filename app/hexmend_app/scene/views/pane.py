@@ -11,7 +11,7 @@ _LIGHT = (-0.3, 0.45, 1.0)
 
 
 class Pane:
-    """Renderer with a single light, see `hexmend_app.scene.layers.soft_light`.
+    """Renderer with a single light, see `hexmend_app.scene.layers.surface`.
 
     Attributes
     ----------

@@ -16,8 +16,7 @@ from hexmend_app.scene.geometry.filters import Filters, same_mask
 from hexmend_app.scene.layers.axes import AxesLayer
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.overlay_layers import OverlayLayers, raise_error
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.moving_cut import can_be_coarse, can_be_flat, flattened, is_moving_cut
+from hexmend_app.scene.views.frame import Frame, can_be_coarse, can_be_flat, flattened, is_moving_cut
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
 from hexmend_app.theme.palette import BACKGROUND, BACKGROUND_ABOVE, BACKGROUND_BELOW

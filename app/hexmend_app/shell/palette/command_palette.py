@@ -9,8 +9,9 @@ from PySide6.QtGui import QBrush, QColor, QIcon, QKeyEvent, QPainter, QPaintEven
 from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
+from hexmend_app.theme.palette import GREY, MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import GREY, MUTED, note, on_theme_change, set_help
+from hexmend_app.theme.style import note, on_theme_change, set_help
 from hexmend_app.translation import tr
 
 #: Keys that move in the list while the text field has the focus.

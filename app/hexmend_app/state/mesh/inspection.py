@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import local
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
 from hexmend.quality.file_ids import hex_ids, node_ids
@@ -182,23 +181,18 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     ('free', 8, 0.0)
     """
     number = as_index(number, mesh.n_nodes, "node")
-    corners = mesh.topology.node_corners
-    places = corners.items[corners.start[number] : corners.start[number + 1]]
-    ring = places // 8
+    star = mesh.topology.node_corners[number]
+    ring = star // 8
     file_id = _file_id(node_ids(mesh), number)
     if not ring.size:
         return NodeDetails(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3), file_id=file_id)
-    nodes, corners_in_ring = np.unique(mesh.hexes[ring], return_inverse=True)
-    hexes = corners_in_ring.reshape(-1, 8).astype(np.int32)
-    x = mesh.points[nodes]
-    x = x / (np.linalg.norm(x[hexes[:, EDGES[:, 0]]] - x[hexes[:, EDGES[:, 1]]], axis=-1).mean() or 1.0)
-    energy, downhill = float(np.square(measure(x, hexes).eta).sum()), np.zeros(3)
+    energy = float(np.square(measure(mesh.points, mesh.hexes[ring]).eta).sum())
+    downhill = np.zeros(3)
     if np.isfinite(energy):
-        star = (8 * np.arange(ring.size) + places % 8).astype(np.int32)
-        at = local.patch_energy(x, hexes, star, 1.0, 0.0, (2.0, 1.0))
+        at = local.patch_energy(mesh.points, mesh.hexes, star, 0.0, 0.0, (2.0, 1.0))
         xx, xy, xz, yy, yz, zz = at.hessian
-        position = x[hexes.ravel()[star[0]]]
-        downhill = descent(np.array(at.gradient), np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), position)
+        hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        downhill = descent(np.array(at.gradient), hessian, mesh.points[number] * at.factor)
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])
     kind = "boundary" if mesh.topology.boundary[number] else "free"
     if mesh.fixed[number] and kind == "free":

@@ -19,8 +19,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
-from hexmend_app.state.run.pace import Pace
-from hexmend_app.state.run.run_settings import rules_text, settings_text
+from hexmend_app.state.run.run_settings import Pace, rules_text, settings_text
 from hexmend_app.state.run.run_view import RunView
 from hexmend_app.state.run.worker import IterationFrame, Worker
 

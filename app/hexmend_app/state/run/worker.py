@@ -19,7 +19,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.run.breakpoints import BreakpointHit, Breakpoints
-from hexmend_app.state.run.pace import Pace
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.tasks.task import Task
 
 

@@ -24,8 +24,7 @@ from hexmend_app.state.mesh.document import Edit, State
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session_parts import SessionParts
-    from hexmend_app.state.tasks.mesh_padder import MeshPadder, PaddingChoice
-    from hexmend_app.state.tasks.mesh_repairer import MeshRepairer
+    from hexmend_app.state.tasks.mesh_change import MeshPadder, MeshRepairer, PaddingChoice
     from hexmend_app.state.tasks.mesh_saver import MeshSaver, SaveTask
 
 

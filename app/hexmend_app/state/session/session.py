@@ -9,8 +9,7 @@ from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from hexmend_app.state.session.commands import Commands
 from hexmend_app.state.session.session_parts import SessionParts
-from hexmend_app.state.tasks.mesh_padder import MeshPadder
-from hexmend_app.state.tasks.mesh_repairer import MeshRepairer
+from hexmend_app.state.tasks.mesh_change import MeshPadder, MeshRepairer
 from hexmend_app.state.tasks.mesh_saver import MeshSaver
 
 if TYPE_CHECKING:
@@ -46,7 +45,7 @@ class Session(SessionParts):
         self.opener.restored.connect(self._show_as_picture)
         for part in self.children():
             for signal in _signals(part):
-                signal.connect(self._on_change)
+                signal.connect(self.changed)
 
     def _show_as_picture(self, restored: RestoredPicture) -> None:
         """Show the mesh as in a picture: appearance, other states next to it, selected hex, camera and recipe."""
@@ -63,9 +62,6 @@ class Session(SessionParts):
         self.saved_cameras.add_all(metadata.scene.cameras)
         if metadata.recipe is not None:
             self.recipe_draft.load(metadata.recipe)
-
-    def _on_change(self, *_: object) -> None:
-        self.changed.emit()
 
 
 def _signals(part: QObject) -> list[SignalInstance]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.doctor import examine
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
@@ -15,6 +16,7 @@ from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.selection import Selection
 from hexmend_app.state.mesh.snapshots import Snapshots
+from hexmend_app.state.node_step import explain
 from hexmend_app.state.run.comparison import Comparison
 from hexmend_app.state.run.node_sweep import NodeSweep
 from hexmend_app.state.run.recipe_draft import RecipeDraft
@@ -23,9 +25,8 @@ from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.state.run.timeline import Timeline
 from hexmend_app.state.session.state_part import FeatureStates, StatePart
 from hexmend_app.state.tasks.boundary_classifier import BoundaryClassifier
-from hexmend_app.state.tasks.mesh_checker import MeshChecker
+from hexmend_app.state.tasks.latest_task import LatestTask
 from hexmend_app.state.tasks.mesh_opener import MeshOpener
-from hexmend_app.state.tasks.node_step_task import NodeStepTask
 from hexmend_app.state.tasks.structure_finder import StructureFinder
 from hexmend_app.state.tasks.time_reader import TimeReader
 from hexmend_app.state.view.camera_request import CameraRequest
@@ -72,8 +73,10 @@ class SessionParts(QObject):
     time_reader : TimeReader
     structure_finder : StructureFinder
     boundary_classifier : BoundaryClassifier
-    node_step_task : NodeStepTask
-    mesh_checker : MeshChecker
+    node_step_task : LatestTask
+        Computes `explain` of a mesh, a method and a node.
+    mesh_checker : LatestTask
+        Computes `examine` of a mesh.
     node_sweep : NodeSweep
     """
 
@@ -112,8 +115,8 @@ class SessionParts(QObject):
         self.opener.mesh_read.connect(self.time_reader.read)
         self.structure_finder = StructureFinder(document, self)
         self.boundary_classifier = BoundaryClassifier(document, self)
-        self.node_step_task = NodeStepTask(self)
-        self.mesh_checker = MeshChecker(self)
+        self.node_step_task = LatestTask("computing the step of a node", explain, self, yields=True)
+        self.mesh_checker = LatestTask("checking the mesh", examine, self)
         self.node_sweep = NodeSweep(document, self)
         self._changing += [self.run, self.opener]
 

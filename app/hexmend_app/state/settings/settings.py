@@ -120,7 +120,7 @@ FOLDER = Setting("folder", Path(), Path, str)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
-#: One of `hexmend_app.state.run.pace.Pace`.
+#: One of `hexmend_app.state.run.run_settings.Pace`.
 RUN_PACE = Setting("run_pace", "slow-start", _pace)
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
 from hexmend.boundary import NodeClass, boundary_of, boundary_with_kept_corners, freed_by_sliding
 from hexmend.boundary.departures import Departures, departures
@@ -14,7 +14,6 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.latest_task import LatestTask
-from hexmend_app.state.tasks.task import Task
 
 #: Node classes in addition to `NodeClass`: nodes of a chain of sharp edges that ends inside a patch, pinned nodes, and
 #: nodes that have left their corner, curve or patch within the tolerance.
@@ -109,65 +108,12 @@ def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle
 
 
 class BoundaryClassifier(LatestTask):
-    """Classifies the boundary of a mesh in the background; only the latest request counts.
-
-    Parameters
-    ----------
-    document : Document
-
-    Signals
-    -------
-    found
-        `classes` or `error` has changed.
-
-    Attributes
-    ----------
-    classes : BoundaryClasses or None
-        The last result; None before the first, and after a failure.
-    error : BaseException or None
-        Error of the last request, if it failed.
-    """
-
-    found = Signal()
+    """Classifies the boundary of a mesh in the background: `ask` takes the arguments of `classify_boundary`."""
 
     def __init__(self, document: Document, parent: QObject | None = None):
-        super().__init__(parent)
+        super().__init__("classifying the boundary", classify_boundary, parent)
         document.mesh_replaced.connect(self.forget)
-        self.classes: BoundaryClasses | None = None
-        self.error: BaseException | None = None
 
-    def of(self, mesh: Mesh) -> BoundaryClasses | None:
+    def of(self, mesh: Mesh) -> BoundaryClasses | None:  # type: ignore[override]
         """Return the last result if it is of this mesh, whatever its node positions."""
-        return self.classes if self.classes is not None and self.classes.mesh.hexes is mesh.hexes else None
-
-    @property
-    def busy(self) -> bool:
-        """True while a classification is in progress."""
-        return self._task is not None
-
-    def ask(self, mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle) -> None:
-        """Request the classes of a mesh's boundary, unless this was the last request.
-
-        Parameters
-        ----------
-        mesh : Mesh
-        figures : ElementQuality
-            Quality of the mesh.
-        degrees : float or "auto"
-            See `node_classes`.
-        """
-        request = mesh, figures, degrees
-        if request != self._latest:
-            self._submit(request)
-
-    def forget(self) -> None:
-        """Discard the result: another mesh is open."""
-        self.classes = self.error = self._latest = None
-
-    def _make_task(self, request: tuple[Mesh, ElementQuality, FeatureAngle]) -> Task:
-        self.error = None
-        return Task(f"classifying the boundary of {request[0].name}", lambda _: classify_boundary(*request))
-
-    def _on_result(self, task: Task) -> None:
-        self.classes, self.error = task.result, task.error
-        self.found.emit()
+        return self.result if self.result is not None and self.result.mesh.hexes is mesh.hexes else None

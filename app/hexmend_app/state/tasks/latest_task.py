@@ -2,47 +2,81 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.tasks.task import Task, drop
 
 
 class LatestTask(QObject):
-    """Computes one request at a time; of the requests made meanwhile, only the latest is computed next.
+    """Computes a function of one request at a time; of the requests made meanwhile, only the latest is computed next.
 
-    Subclasses make the task of a request and receive its result.
+    Signals
+    -------
+    found
+        The latest request has ended: `result` or `error` is set.
+
+    Attributes
+    ----------
+    result : object
+        Result of the last request that has ended; None while there is none.
+    error : BaseException or None
+        Error of that request, if it failed.
+
+    Parameters
+    ----------
+    name : str
+        Name of the computation, for its thread.
+    compute : callable
+        Called with the arguments of `ask` in a thread.
+    yields : bool
+        Run the thread with lower priority.
     """
 
-    def __init__(self, parent: QObject | None = None):
+    found = Signal()
+
+    def __init__(self, name: str, compute: Callable[..., Any], parent: QObject | None = None, *, yields: bool = False):
         super().__init__(parent)
+        self._name, self._compute, self._yields = name, compute, yields
         self._latest: tuple[Any, ...] | None = None
         self._active: tuple[Any, ...] | None = None
+        self._ended: tuple[Any, ...] | None = None  # the request of `result` and `error`
         self._task: Task | None = None
+        self.result: Any = None
+        self.error: BaseException | None = None
 
-    def _make_task(self, request: tuple[Any, ...]) -> Task:
-        """Return the task that computes a request, not started yet."""
-        raise NotImplementedError
+    @property
+    def busy(self) -> bool:
+        """True until the latest request has ended."""
+        return self._latest is not self._ended
 
-    def _on_result(self, task: Task) -> None:
-        """Receive the ended task of the latest request."""
-        raise NotImplementedError
+    def of(self, subject: object) -> Any:
+        """Return the result if it is that of a request whose first argument is this object; else None."""
+        return self.result if self._ended is not None and self._ended[0] is subject else None
 
-    def _submit(self, request: tuple[Any, ...]) -> None:
-        self._latest = request
-        if self._task is None:
-            self._start()
+    def ask(self, *request: Any) -> None:
+        """Request a computation, unless this was the last request."""
+        if request != self._latest:
+            self._latest = request
+            if self._task is None:
+                self._start()
+
+    def forget(self) -> None:
+        """Drop the result, and those of pending requests."""
+        self._latest = self._ended = self.result = self.error = None
 
     def close(self) -> None:
         """Cancel the task and drop its result."""
-        self._latest = None
+        self._latest = self._ended = None
         drop(self._task)
         self._task = None
 
     def _start(self) -> None:
-        self._active = self._latest
-        self._task = self._make_task(self._active)
+        self._active, self.error = self._latest, None
+        request, compute = self._active, self._compute
+        self._task = Task(self._name, lambda _: compute(*request), yields=self._yields)
         self._task.ended.connect(self._finish)
         self._task.start()
 
@@ -52,5 +86,6 @@ class LatestTask(QObject):
             return
         if self._active != self._latest:
             self._start()
-        else:
-            self._on_result(task)
+            return
+        self.result, self.error, self._ended = task.result, task.error, self._latest
+        self.found.emit()

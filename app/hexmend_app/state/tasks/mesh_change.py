@@ -1,14 +1,16 @@
-"""Changes of the mesh in the background, each one entry of the undo list."""
+"""Changes of the mesh in the background, each one entry of the undo list: repair and padding."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.doctor import PROBLEMS, repair
 from hexmend.mesh.mesh import Mesh
+from hexmend.padding import pad
 from hexmend_app.state.mesh.document import Edit, State
 from hexmend_app.state.tasks.task import Task, drop
 
@@ -119,3 +121,53 @@ def prepared_state(mesh: Mesh) -> State:
     state = State.of(mesh.keeping_surface())
     _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers
     return state
+
+
+class PaddingChoice(NamedTuple):
+    """Options of a layer: the arguments of `hexmend.pad`.
+
+    Parameters
+    ----------
+    name : str or None
+        Set under whose faces the layer is laid.
+    around : str or None
+        Hexes around which it is laid, "locked" or "inverted"; without both it is under the whole boundary.
+    rings : int
+    thickness : float or None
+        None for the default.
+    """
+
+    name: str | None = None
+    around: str | None = None
+    rings: int = 1
+    thickness: float | None = None
+
+
+class MeshPadder(BackgroundChange):
+    """Lays a layer of hexes under the boundary and mends the mesh; `ended` sends a `hexmend.Padding`."""
+
+    def start(self, choice: PaddingChoice) -> bool:
+        """Start padding the mesh; return False if it is not editable."""
+        return self._begin("padding", lambda before, task: _pad(before, choice, task))
+
+
+def _pad(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
+    """Pad, mend, measure and prepare a mesh; mending ends when the task is cancelled."""
+    padding = pad(before.mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
+    return MeshChange(padding, "pad", prepared_state(padding.mesh), Edit(before, pad, tuple(choice)))
+
+
+class MeshRepairer(BackgroundChange):
+    """Repairs the problems of the mesh; `ended` sends those that were repaired, as a tuple of Finding."""
+
+    def start(self, kinds: Sequence[str] = ()) -> bool:
+        """Start repairing some kinds of problem, or all; return False if the mesh is not editable."""
+        kinds = tuple(kinds)
+        return self._begin("repairing", lambda before, _: _repair(before, kinds))
+
+
+def _repair(before: State, kinds: tuple[str, ...]) -> MeshChange:
+    """Repair, measure and prepare a mesh."""
+    mesh, repaired = repair(before.mesh, kinds)
+    title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)
+    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, Edit(before, repair, (kinds,)))

@@ -28,8 +28,8 @@ from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
+from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
-from hexmend_app.widgets.scrolled import scrolled
 
 #: Milliseconds from the last change to the update of the preview.
 _PREVIEW_DELAY = 150

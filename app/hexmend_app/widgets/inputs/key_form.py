@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
+from functools import cache
 from typing import Any
 
 from PySide6.QtCore import Signal
@@ -13,11 +16,11 @@ from PySide6.QtWidgets import QFormLayout, QWidget
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.docstring_help import helps
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
+from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import WORSE, labelled, note, set_help, show_text
+from hexmend_app.theme.style import labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
@@ -119,3 +122,24 @@ def _text(value: Any) -> str:
     if isinstance(value, tuple):
         return ", ".join(map(_text, value))
     return f"{value:.10g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
+@cache
+def helps(kind: type) -> dict[str, str]:
+    """Return the descriptions of the parameters of a class by name, from its NumPy docstring.
+
+    >>> from hexmend_app.picture import WipeLayout
+    >>> helps(WipeLayout)["mesh"]
+    'Number of the mesh on the command line, from 1.'
+    """
+    lines = inspect.getdoc(kind).splitlines()
+    texts: dict[str, str] = {}
+    names: list[str] = []
+    for line in lines[lines.index("Parameters") + 2 :] if "Parameters" in lines else ():
+        head = re.fullmatch(r"(\w[\w,\s]*?)(?:\s:\s.*)?", line)
+        if head and not line.startswith(" "):
+            names = head[1].split(", ")
+        elif line.startswith("    "):
+            for name in names:
+                texts[name] = f"{texts.get(name, '')} {line.strip()}".strip()
+    return texts

@@ -15,8 +15,9 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QTo
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
+from hexmend_app.theme.palette import BLUE, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import BLUE, WORSE, bold, note, set_help, show_text, tool_button
+from hexmend_app.theme.style import bold, note, set_help, show_text, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox

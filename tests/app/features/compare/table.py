@@ -25,7 +25,7 @@ def model(window):
 
 
 def row(window, name):
-    return [one.name for one in model(window).entries].index(name)
+    return [one.name for one in model(window).rows].index(name)
 
 
 def tick(window, name, column):

@@ -31,11 +31,11 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
     assert compared.session.document.now.mesh is before
     expected = compare(before, ["getme", "laplacian", "local-sd"], SHORT)
     for one in expected.rows:
-        record = model(compared).entries[row(compared, one.method)].record
+        record = model(compared).rows[row(compared, one.method)].record
         assert record["q_min"] == one.after.q_min
         assert record["inverted"] == one.after.inverted
         assert record["iterations"] == 4
-    assert [one.name for one in model(compared).entries[:4]] == ["initial", "getme", "laplacian", "local-sd"]
+    assert [one.name for one in model(compared).rows[:4]] == ["initial", "getme", "laplacian", "local-sd"]
     corner = compared.statusBar()
     assert named(corner, QLabel, "Counts").isVisible()  # the table does not cover the counts
     best = min(expected.rows, key=lambda one: one.after.inverted).method
@@ -103,7 +103,7 @@ def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():
     table.fill(rows, full=False, busy=False)
     texts = {
         one.name: [table.index(at, COLUMN[key]).data() for key in ("seconds", "q_min", "scaled_jacobian_min")]
-        for at, one in enumerate(table.entries)
+        for at, one in enumerate(table.rows)
     }
     assert texts == {
         "laplacian": ["0.012", "0.3000", "−0.5000"],
@@ -112,7 +112,7 @@ def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():
     }
     bold = {
         one.name
-        for at, one in enumerate(table.entries)
+        for at, one in enumerate(table.rows)
         if table.index(at, COLUMN["q_min"]).data(Qt.ItemDataRole.FontRole) is not None
     }
     assert bold == {"laplacian", "getme"}

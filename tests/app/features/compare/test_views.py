@@ -46,7 +46,7 @@ def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
     ]
     press(next(cross for cross in crosses if cross.isVisible()))
     assert captions(compared) == ["now", title_of("getme"), title_of("local-sd")]
-    assert not model(compared).entries[row(compared, "laplacian")].shown
+    assert not model(compared).rows[row(compared, "laplacian")].shown
     assert [one.name for one in compared.session.snapshots.all] == [title_of("getme"), title_of("local-sd")]
     key(compared, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
     assert captions(compared) == []

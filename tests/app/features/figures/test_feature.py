@@ -13,7 +13,7 @@ from benchmarks.window.windows import end_run
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.cli import figure_set
-from hexmend_app.features.figures.versions import versions_of
+from hexmend_app.features.figures.exports import versions_of
 from hexmend_app.picture import read_scene
 from tests.app.driving import LEFT
 from tests.app.features.timeline.test_feature import stepped

@@ -73,7 +73,7 @@ def test_an_mp4_film_plays(mesh_file, tmp_path):
 
 
 def test_without_pyav_an_mp4_film_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("hexmend_app.scene.film.movie.find_spec", lambda name: None)
+    monkeypatch.setattr("hexmend_app.scene.film.film.find_spec", lambda name: None)
     assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.mp4"), "--method", "laplacian"]) == 3
     assert "pip install '.[film]'" in capsys.readouterr().err
 

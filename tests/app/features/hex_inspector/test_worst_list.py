@@ -8,9 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QTableView
 
 from hexmend.quality import METRICS, measure
-from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList
-from hexmend_app.features.hex_inspector.worst_model import ID
+from hexmend_app.features.hex_inspector.worst_model import ID, write_worst
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from tests.core.grids import grid, scrambled
 

@@ -12,7 +12,7 @@ from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.step_plot import NodePlot, extent
 from hexmend_app.features.node_step.step_texts import rows
 from hexmend_app.state.node_step import StepStatus, Trial, explain
-from hexmend_app.theme.style import TEXT, WORSE
+from hexmend_app.theme.palette import TEXT, WORSE
 from tests.app.driving import named
 from tests.app.features.node_step.step_display import drawn_trials
 from tests.app.hosting import action

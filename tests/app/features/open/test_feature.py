@@ -14,8 +14,8 @@ from hexmend import gallery, io
 from hexmend.gallery import make
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.features.open.opening_card import card
 from hexmend_app.features.open.recent_menu import RecentMenu
+from hexmend_app.features.open.welcome import card
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES

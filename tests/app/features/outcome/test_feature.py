@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery
 from hexmend.iteration import StoppingCriteria
-from hexmend_app.features.outcome.notice import notice
+from hexmend_app.features.outcome.feature import notice
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import button, click, key, open_mesh, phase, press, run_to_end
 from tests.app.driving import texts as visible_texts

@@ -6,7 +6,7 @@ import pytest
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.pad.pad_dialog import PadDialog
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from tests.core.grids import grid
 
 

@@ -12,7 +12,7 @@ from hexmend.quality import summarise
 from hexmend.quality.summary import Summary
 from hexmend_app.features.quality.quality_bar import FIGURES, QualityBar
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
-from hexmend_app.theme.style import BETTER, MUTED, WORSE
+from hexmend_app.theme.palette import BETTER, MUTED, WORSE
 from hexmend_app.widgets.wording import figure
 from tests.app.driving import named, run_to_end
 from tests.core.grids import grid

@@ -7,8 +7,8 @@ from PySide6.QtTest import QTest
 
 from hexmend.iteration import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.features.runs.dot_delegate import axis_of, place
 from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTINGS, RunRow, RunTable
+from hexmend_app.features.runs.runs_panel import axis_of, place
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED

@@ -19,7 +19,7 @@ from hexmend_app.features.script.trace import Trace
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
-from hexmend_app.state.tasks.mesh_padder import PaddingChoice
+from hexmend_app.state.tasks.mesh_change import PaddingChoice
 
 SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)

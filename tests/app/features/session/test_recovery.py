@@ -47,7 +47,7 @@ def tell():
 
 session.opener.ended.connect(smooth)
 feature.recovery.written.connect(tell)
-feature.start_autosave()
+feature.program_started()
 window.features["open"].open(Path(sys.argv[1]))
 app.exec()
 """
@@ -88,7 +88,7 @@ def offered(window):
 @pytest.mark.slow
 def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
     window, session = fresh_window, fresh_window.session
-    window.features["session"].start_autosave()
+    window.features["session"].program_started()
     assert offered(window) == [f"{mesh_file.name} can be recovered"]
     (text,) = (text for _, title, text in window.messages.messages() if "recovered" in title)
     assert "with 1 run." in text
@@ -109,13 +109,13 @@ def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, ow
 @pytest.mark.slow
 def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     feature = fresh_window.features["session"]
-    feature.start_autosave()
+    feature.program_started()
     assert offered(fresh_window)
     fresh_window.messages.dismiss()
     assert not offered(fresh_window)  # not today
     feature.close()
     assert len(list(own_state.iterdir())) == 1
-    feature.start_autosave()
+    feature.program_started()
     fresh_window.action("recover").trigger()
     assert offered(fresh_window)
     press(button(fresh_window.messages, "Discard"))

@@ -11,8 +11,8 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run import worker
-from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.session import commands
 from hexmend_app.state.settings import settings
 from tests.app.driving import choose, click, key, named, phase, run_to_end, sentence

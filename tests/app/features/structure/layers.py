@@ -24,7 +24,7 @@ KEYS = {
 def open_and_know(qtbot, window, path):
     """Open a mesh, and wait until its structure is found."""
     open_and_wait(qtbot, window, path)
-    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None)
+    qtbot.waitUntil(lambda: window.session.structure_finder.result is not None)
     window.refresh()
 
 

@@ -117,8 +117,8 @@ def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
     window.session.document.replace(first, None)
     begin_searching(window)
     window.session.document.replace(last, None)
-    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None)
-    assert len(window.session.structure_finder.structure.sharp) == 24
+    qtbot.waitUntil(lambda: window.session.structure_finder.result is not None)
+    assert len(window.session.structure_finder.result.sharp) == 24
 
 
 @pytest.mark.slow
@@ -127,9 +127,9 @@ def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
     press_key(five, "irregular")
     io.write(tmp_path / "cube.vtu", grid(3))
     open_and_wait(qtbot, five, tmp_path / "cube.vtu")
-    assert five.session.structure_finder.structure is None
+    assert five.session.structure_finder.result is None
     assert five.canvas.viewport.frame.look.structure.on.isdisjoint(EDGE_LAYERS)  # the view does not wait for them
-    qtbot.waitUntil(lambda: five.session.structure_finder.structure is not None)
+    qtbot.waitUntil(lambda: five.session.structure_finder.result is not None)
     five.refresh()
     assert five.canvas.viewport.frame.look.structure == Structure.of("irregular", "sharp")
     assert texts(five.features["structure"].panel, "sharp") == ["36"]

@@ -10,7 +10,7 @@ from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import apply_pose
-from hexmend_app.scene.layers.ghosts import Ghosts
+from hexmend_app.scene.layers.overlay_layers import Ghosts
 from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 

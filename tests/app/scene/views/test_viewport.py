@@ -141,7 +141,7 @@ def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_res
 @pytest.mark.parametrize("style", list(CutStyle))
 @pytest.mark.parametrize("many", [0, 1000], ids=["squares", "faces"])
 def test_a_cut_that_moves_is_drawn_coarsely_and_at_rest_as_it_is(seen, monkeypatch, style, many):
-    monkeypatch.setattr("hexmend_app.scene.views.moving_cut.COARSE_CUT_HEXES", 1)
+    monkeypatch.setattr("hexmend_app.scene.views.frame.COARSE_CUT_HEXES", 1)
     monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", many)
     viewport, pixels = seen
     looks = [Look(cut=Cut.at((0, 0.1, 1), (0, 0, z), style)) for z in (1.3, 2.4, 3.1)]
@@ -170,7 +170,7 @@ def test_a_cut_that_moves_is_drawn_coarsely_and_at_rest_as_it_is(seen, monkeypat
 
 
 def test_a_coarse_cut_of_a_tangled_mesh_survives_what_comes_between_it_and_the_fine_frame(seen, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.views.moving_cut.COARSE_CUT_HEXES", 1)
+    monkeypatch.setattr("hexmend_app.scene.views.frame.COARSE_CUT_HEXES", 1)
     monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", 0)
     viewport, pixels = seen
     tangled, scale = scrambled(MESH, 1.5), Colours(range=Range.FITTED)

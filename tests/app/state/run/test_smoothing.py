@@ -13,8 +13,8 @@ from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.run import worker
-from hexmend_app.state.run.pace import Pace
 from hexmend_app.state.run.run_controller import Phase, RunController
+from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import turn
 from tests.core.grids import grid

@@ -91,10 +91,10 @@ def test_only_the_latest_request_is_answered(classifier, qtbot):
     qtbot.waitUntil(lambda: not classifier.busy)
     assert classifier.of(MESH).count(PIN) == MESH.topology.boundary.sum()
     assert classifier.of(ball(2)) is None
-    answer = classifier.classes
+    answer = classifier.result
     classifier.ask(pinned, FIGURES, 40.0)
     assert not classifier.busy
-    assert classifier.classes is answer
+    assert classifier.result is answer
 
 
 def test_an_error_is_reported_and_the_next_request_is_computed(classifier, qtbot):
@@ -115,7 +115,7 @@ def test_an_error_is_reported_and_the_next_request_is_computed(classifier, qtbot
 @pytest.mark.parametrize("figures", [None, FIGURES])
 def test_results_for_a_closed_mesh_are_dropped(figures, classifier, qtbot):
     results = []
-    classifier.found.connect(lambda: results.append((classifier.classes, classifier.error)))
+    classifier.found.connect(lambda: results.append((classifier.result, classifier.error)))
     classifier.ask(MESH, figures, 40.0)
     classifier.forget()
     other = ball(2)

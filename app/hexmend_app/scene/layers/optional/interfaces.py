@@ -39,8 +39,7 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         super().__init__(pane, pixel_ratio)
         self.actors[1].GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
         for actor in self.actors:
-            mapper = actor.GetMapper()
-            offset_depth(mapper, polygons=_IN_FRONT, lines=_EDGES_IN_FRONT)
+            offset_depth(actor.GetMapper(), polygons=_IN_FRONT, lines=_EDGES_IN_FRONT)
         self._drawn: tuple[object, ...] = (None, None, None)
         self._keep: np.ndarray | None = None
 

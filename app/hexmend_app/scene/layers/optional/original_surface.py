@@ -38,8 +38,7 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
         self._drawn: tuple[np.ndarray | None, bool] = (None, False)  # points, and whether faces are curved
         self._keep: np.ndarray | None = None
         for actor in self.actors:
-            mapper = actor.GetMapper()
-            offset_depth(mapper, polygons=_FACES_BEHIND, lines=_EDGES_BEHIND)
+            offset_depth(actor.GetMapper(), polygons=_FACES_BEHIND, lines=_EDGES_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the original boundary faces of shown hexes; an unchanged surface is not rebuilt."""

@@ -9,7 +9,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
-from hexmend_app.scene.layers.translucent_surface import TranslucentSurface, edges_of, with_lengths
+from hexmend_app.scene.layers.translucent_surface import TranslucentSurface, edges_of
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import OTHER_CELLS
@@ -77,8 +77,10 @@ class OtherCells(TranslucentSurface, OptionalLayer):
         if not len(edges):
             return
         self._move(mesh.points[self._nodes])
-        self.poly.faces = np.concatenate([with_lengths(np.searchsorted(self._nodes, polygons)) for polygons in faces])
-        self._lines.lines = with_lengths(np.searchsorted(self._nodes, edges))
+        self.poly.faces = pv.CellArray.from_irregular_cells(
+            [row for polygons in faces for row in np.searchsorted(self._nodes, polygons)]
+        )
+        self._lines.lines = pv.CellArray.from_regular_cells(np.searchsorted(self._nodes, edges))  # type: ignore[arg-type]
 
     def _move(self, points: np.ndarray) -> None:
         self.poly.points = points

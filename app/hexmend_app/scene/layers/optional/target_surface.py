@@ -37,8 +37,7 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
         self._target: TargetSurface | None = None
-        mapper = self.actors[0].GetMapper()
-        offset_depth(mapper, polygons=_BEHIND)
+        offset_depth(self.actors[0].GetMapper(), polygons=_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the whole surface without its edges, of which there are many; an unchanged one is not rebuilt."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkContourFilter
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.scene.geometry.curved_elements import jacobian_field
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
@@ -49,14 +48,15 @@ class NegativeJacobian:
         self.layers: tuple[vtkRenderer, vtkRenderer] = (pane.overlay(), pane.overlay())
         self.region = pv.PolyData()
         self._faces = flat_actor(self.layers[0], opacity=_OPACITY)
-        self._body = self._actor(INVERTED)
+        front = self.layers[1]
+        self._body = flat_actor(front, colour=INVERTED)
         light = self._body.GetProperty()
         light.LightingOn()
         light.SetAmbient(_AMBIENT)
         light.SetDiffuse(1 - _AMBIENT)
-        self._border = self._actor(_BORDER, _BORDER_WIDTH * pixel_ratio)
-        self._edges = [self._actor(colour, width * pixel_ratio) for colour, width in _EDGES]
-        self._dot = [self._actor(colour) for colour, _ in _DOT]
+        self._border = flat_actor(front, _BORDER_WIDTH * pixel_ratio, colour=_BORDER)
+        self._edges = [flat_actor(front, width * pixel_ratio, colour=colour) for colour, width in _EDGES]
+        self._dot = [flat_actor(front, colour=colour) for colour, _ in _DOT]
         for (_, size), actor in zip(_DOT, self._dot, strict=True):
             actor.GetProperty().SetPointSize(size * pixel_ratio)
             actor.GetProperty().RenderPointsAsSpheresOn()
@@ -65,11 +65,6 @@ class NegativeJacobian:
             offset_depth(actor.GetMapper(), lines=-8.0 * depth)
         self.set_dark(False)
         self.hide()
-
-    def _actor(self, colour: str, width: float = 1.0) -> vtkActor:
-        actor = flat_actor(self.layers[1], width)
-        actor.GetProperty().SetColor(rgb(colour))
-        return actor
 
     @property
     def shown(self) -> bool:
@@ -83,19 +78,15 @@ class NegativeJacobian:
     def show(self, nodes: np.ndarray) -> None:
         """Draw the region of a hex with these nodes, (8, 3) or (27, 3) as `jacobian_field` takes them."""
         positions, determinants = jacobian_field(nodes, _DIVISIONS)
-        surface, inside = _surface(positions, determinants), _inside(positions, determinants)
-        negative = _negative_part(surface)
-        self.region = inside.append_polydata(negative)
+        grid = _grid(positions, determinants)
+        surface = _surface(grid)
+        self.region = grid.contour([0.0]).append_polydata(surface.clip_scalar(value=0.0))
         if self.region.n_cells:
             self.region = self.region.compute_normals(cell_normals=False, split_vertices=True, feature_angle=_CREASE)
-        border = vtkContourFilter()
-        border.SetInputData(surface)
-        border.SetValue(0, 0.0)
-        border.Update()
         edges, least = _edges_of(positions), positions.reshape(-1, 3)[determinants.argmin()]
         for actor, data in (
             (self._body, self.region),
-            (self._border, border.GetOutput()),
+            (self._border, surface.contour([0.0])),
             *((actor, edges) for actor in self._edges),
             *((actor, pv.PolyData(least[None])) for actor in self._dot),
             (self._faces, surface),
@@ -120,32 +111,12 @@ def _grid(positions: np.ndarray, determinants: np.ndarray) -> pv.StructuredGrid:
     return grid
 
 
-def _inside(positions: np.ndarray, determinants: np.ndarray) -> pv.PolyData:
-    """Return the surface det J = 0."""
-    contour = vtkContourFilter()
-    contour.SetInputData(_grid(positions, determinants))
-    contour.SetValue(0, 0.0)
-    contour.ComputeNormalsOff()  # these need gradients, which a flat cell does not have
-    contour.Update()
-    return pv.wrap(contour.GetOutput())
-
-
-def _surface(positions: np.ndarray, determinants: np.ndarray) -> pv.PolyData:
+def _surface(grid: pv.StructuredGrid) -> pv.PolyData:
     """Return the faces of the hex, with det J."""
     outside = vtkDataSetSurfaceFilter()
-    outside.SetInputData(_grid(positions, determinants))
+    outside.SetInputData(grid)
     outside.Update()
     return pv.wrap(outside.GetOutput())
-
-
-def _negative_part(surface: pv.PolyData) -> pv.PolyData:
-    """Return the parts of faces where det J < 0."""
-    clip = vtkClipPolyData()
-    clip.SetInputData(surface)
-    clip.SetValue(0.0)
-    clip.InsideOutOn()
-    clip.Update()
-    return pv.wrap(clip.GetOutput())
 
 
 def _edges_of(positions: np.ndarray) -> pv.PolyData:
@@ -154,4 +125,4 @@ def _edges_of(positions: np.ndarray) -> pv.PolyData:
     edges = np.concatenate([one.reshape(len(positions), 4, 3).swapaxes(0, 1) for one in along])
     count, length = edges.shape[:2]
     places = np.arange(count * length).reshape(count, length)
-    return pv.PolyData(edges.reshape(-1, 3), lines=np.column_stack([np.full(count, length), places]).ravel())
+    return pv.PolyData(edges.reshape(-1, 3), lines=pv.CellArray.from_regular_cells(places))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend_app.scene.layers.flat_actor import flat_actor
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, Role, rgb
@@ -65,17 +66,11 @@ class NodeStepMarks:
         return self._behind, self._front
 
     def _add(self, layer: vtkRenderer, role: Role | None, width: float = 1, opacity: float = 1.0) -> vtkActor:
-        actor = vtkActor()
-        actor.SetMapper(vtkPolyDataMapper())
+        actor = flat_actor(layer, self._pixel_ratio * width, opacity, _RIM)
+        actor.VisibilityOn()
         actor.GetMapper().SetInputData(pv.PolyData())
-        prop = actor.GetProperty()
-        prop.LightingOff()
-        prop.SetLineWidth(self._pixel_ratio * width)
-        prop.SetOpacity(opacity)
-        prop.SetColor(rgb(_RIM))
         if role is not None:
             self._roles[actor] = role
-        layer.AddActor(actor)
         return actor
 
     def _solid(self, role: Role) -> tuple[vtkActor, vtkActor]:
@@ -115,9 +110,8 @@ class NodeStepMarks:
         edges = np.unique(np.sort(hexes[:, EDGES].reshape(-1, 2), axis=1), axis=0)
         spokes = edges[(edges == node).any(axis=1)]
         length = float(np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).mean())
-        _draw(self._edges, _lines(x, edges))
-        for actor in self._spokes:
-            _draw(actor, _lines(x, spokes))
+        for actor, ends in ((self._edges, edges), *((actor, spokes) for actor in self._spokes)):
+            _draw(actor, pv.PolyData(x, lines=pv.CellArray.from_regular_cells(ends)))
         self._draw_ghost(x, node, hexes, spokes)
         self._draw_arrow(DESCENT, _scaled(step.descent, _DESCENT * length), length, _DESCENT_WIDTH)
         self._draw_arrow(SEARCH, _scaled(step.search_direction, _DIRECTION * length), length)
@@ -137,7 +131,9 @@ class NodeStepMarks:
         faces = hexes[:, FACES].reshape(-1, 4)
         moves = step.move > 0
         _draw(self._ghost, pv.PolyData.from_regular_faces(moved, faces[(faces == node).any(axis=1) & moves]))
-        _draw(self._ghost_edges, _lines(moved, spokes[: len(spokes) * moves]))
+        _draw(
+            self._ghost_edges, pv.PolyData(moved, lines=pv.CellArray.from_regular_cells(spokes[: len(spokes) * moves]))
+        )
 
     def _draw_arrow(self, role: Role, vector: np.ndarray, length: float, width: float = 1.0) -> None:
         """Draw an arrow from the node; `length` is the mean edge length, the unit of all sizes but the `width`."""
@@ -174,11 +170,6 @@ class NodeStepMarks:
 
 def _draw(actor: vtkActor, poly: pv.PolyData) -> None:
     actor.GetMapper().SetInputData(poly)
-
-
-def _lines(points: np.ndarray, edges: np.ndarray) -> pv.PolyData:
-    """Build lines from points, (k, 3), and edges, (j, 2)."""
-    return pv.PolyData(points, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
 
 
 def _scaled(vector: np.ndarray, length: float) -> np.ndarray:

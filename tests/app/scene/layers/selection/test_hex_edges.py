@@ -7,7 +7,7 @@ from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.page import LineStyle
 from hexmend_app.picture.visibility import Show
-from hexmend_app.scene.layers.selection.hex_edges import dashed
+from hexmend_app.scene.layers.selection.highlight import dashed
 from tests.app.scene.showing import show
 from tests.core.grids import grid
 
