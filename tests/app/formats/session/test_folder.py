@@ -157,5 +157,5 @@ def test_only_new_arrays_are_flushed_before_the_description_names_them(tmp_path,
     folder.write("test", 1, [first, np.arange(4), np.arange(5)])
     *arrays, description, parent = flushed
     assert arrays == ["1.npy", "2.npy", "arrays"]
-    assert description.endswith("description.json")
+    assert description.endswith(".json")
     assert parent == "session"
