@@ -79,6 +79,7 @@ def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, 
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu", "report.json"]
 
 
+@pytest.mark.slow
 def test_a_signal_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path):
     words = ["compare", mesh, "-o", tmp_path, "--methods", "laplacian,local-sd,smart-laplacian", "--tolerance", "0"]
     # Laplacian ends at its own limit; the second method is the one that is stopped.

@@ -31,6 +31,7 @@ def test_counts_and_qualities_are_near_those_of_the_thesis(plane):
     assert summary.q_mean == pytest.approx(0.8164, abs=0.005)
 
 
+@pytest.mark.slow
 def test_the_boundary_is_the_box_and_the_aeroplane(plane):
     on_body, on_box = (np.isin(np.arange(plane.n_nodes), plane.node_sets[name]) for name in ("aeroplane", "box"))
     assert not (on_body & on_box).any()

@@ -20,6 +20,7 @@ def differ(before, after):
     return (np.abs(after - before).sum(axis=2) > 60).mean()
 
 
+@pytest.mark.slow
 def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     whole, bar = pixels(window), window.canvas.colour_bar
     walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")

@@ -65,6 +65,7 @@ def test_another_topology_is_drawn_and_undone(window, console):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
     qtbot.keyClicks(console.panel.input, r"exec('print(\'begun\')\nwhile True: pass')")
     qtbot.keyClick(console.panel.input, Qt.Key.Key_Return)

@@ -39,6 +39,7 @@ def click_at(window, at):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_two_clicks_measure_a_distance_a_third_an_angle_and_escape_ends(window, panel):
     key(window, Qt.Key.Key_R)
     QApplication.processEvents()

@@ -47,6 +47,7 @@ def press_in_menu(menu, key):
     QTest.keyClick(menu, key)
 
 
+@pytest.mark.slow
 def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, menu, tmp_path, mesh_file):
     assert recent.files() == [mesh_file]
     other = tmp_path / "R&D" / "other.vtu"
