@@ -61,6 +61,7 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot):
 
 @pytest.mark.slow
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
+    window.resize(1400, 900)  # so that panels do not change its width
     whole = moving(window)
     key(window, Qt.Key.Key_C)
     choose(window, "Box")
