@@ -18,7 +18,6 @@ from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 MESHES = {
     "cube, tangled": ("cube", {"size": 216, "scramble": 2.0}),
-    "bridge": ("bridge-sharp", {"size": 864}),
     "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
     "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
 }

@@ -93,21 +93,16 @@ def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("wiping", "page"),
-    [(False, Page(pixels=(700, 420), margin=1.5)), (True, Page(85, 60, dpi=200, background="#20262e"))],
-    ids=["side by side", "wipe"],
-)
-def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, wiping, page):
+def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path):
     session = window.session
     window.action("cut").trigger()
     session.view.change(structure=Structure.of("sharp"), show={"shrink": 0.1})
     session.side_views.show("as it was", session.document.now)
-    session.side_views.set_wiping(wiping)
+    session.side_views.set_wiping(True)
     window.refresh()
     window.canvas.roll(10)
     save_and_wait(session, tmp_path / "mesh.vtu")
-    scene = window.canvas.scene(page)
+    scene = window.canvas.scene(Page(85, 60, dpi=200, background="#20262e"))
     write_scene(tmp_path / "scene.toml", scene)
     assert window.features["save"].write_picture(tmp_path / "here.png", scene)
     meshes = [str(tmp_path / "mesh.vtu")] * 2
