@@ -7,9 +7,10 @@ import numpy as np
 from hexmend.boundary import boundary_of
 from hexmend.layers.columns import lateral_lengths, walk_columns
 from hexmend.layers.walls import Layers, layers_of_columns
-from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
+from hexmend.quality.measure import corner_determinants
 from hexmend.target.sheets import recovered_lengths
 
 #: Lateral length over height from which on hexes at a wall are thin. Meshers that make no layers seldom reach it.
@@ -47,12 +48,13 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     """
     neighbours = mesh.topology.face_neighbours
     hexes, faces = np.nonzero(neighbours < 0)
-    short = _short_faces(mesh, hexes, faces)
-    if not short.any():
+    volume, area, side = sizes_at_wall(mesh, hexes, faces)
+    flat = volume * THIN <= side * area
+    if not flat.any():
         return Layers()
     patch = boundary_of(mesh, corners=np.empty(0, np.int32)).patch_of_face[: len(hexes)]
-    thin = np.bincount(patch, short) * 2 >= np.bincount(patch)
-    chosen = np.flatnonzero(thin[patch])
+    mostly_flat = np.bincount(patch, flat) * 2 >= np.bincount(patch)
+    chosen = np.flatnonzero(mostly_flat[patch])
     if not chosen.size:
         return Layers()
     hexes, faces, patch = hexes[chosen], faces[chosen], patch[chosen]
@@ -79,16 +81,12 @@ def _depth(aspect: float, growth: np.ndarray) -> int:
     return grows + 1 if aspect >= THIN and aspect * (grows - 1) >= LEAST_EVIDENCE else 0
 
 
-def _short_faces(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Mark faces of hexes, both (k,) int, whose height has an edge that is short against the longest of the others."""
-    ends = mesh.hexes[hexes][:, EDGES]
-    along = mesh.points[ends[..., 1]] - mesh.points[ends[..., 0]]
-    squares = np.einsum("kei,kei->ke", along, along).reshape(-1, 3, 4)
-    rows = np.arange(len(hexes))
-    height = squares.min(axis=2)[rows, faces // 2]
-    longest = squares.max(axis=2)
-    longest[rows, faces // 2] = 0
-    return height * THIN**2 < longest.max(axis=1)
+def sizes_at_wall(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Volumes of hexes (k,), areas of one face of each, (k,) int, and the longest sides of these faces; each (k,)."""
+    x = mesh.points[mesh.hexes[hexes[:, None], FACES[faces]]]
+    area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
+    side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+    return corner_determinants(mesh.points, mesh.hexes, hexes).mean(axis=1), area, side
 
 
 def _side_set(mesh: Mesh, hex: int, face: int) -> str:

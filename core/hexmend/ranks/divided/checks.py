@@ -7,11 +7,10 @@ import numpy as np
 from hexmend.io.formats.vtk.grid import HEXAHEDRON, KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.formats.vtk.merge_grids import GHOSTS
 from hexmend.io.slices import GridSlice
-from hexmend.layers.detection import THIN
+from hexmend.layers.detection import THIN, sizes_at_wall
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import is_name_of_materials
-from hexmend.quality.measure import corner_determinants
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart
 
@@ -99,11 +98,8 @@ def may_have_layers(part: RankPart) -> bool:
     hexes, faces = np.nonzero(mesh.topology.face_neighbours < 0)
     quads = mesh.hexes[hexes[:, None], FACES[faces]]
     real = part.owned[quads].any(axis=1)  # others are where the part ends
-    hexes, quads = hexes[real], quads[real]
-    x = mesh.points[quads]
-    area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
-    side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
-    volume = corner_determinants(mesh.points, mesh.hexes, hexes).mean(axis=1)
+    hexes, faces, quads = hexes[real], faces[real], quads[real]
+    volume, area, side = sizes_at_wall(mesh, hexes, faces)
     nodes = quads.ravel()
     at_nodes = (ranks.complete(np.bincount(nodes, np.repeat(of, 4), mesh.n_nodes)) for of in (volume, area))
     volumes, areas = (values[quads].sum(axis=1) for values in at_nodes)
