@@ -13,7 +13,7 @@ from hexmend.quality import ElementQuality
 from hexmend.quality.measure import corner_determinants
 from hexmend.target.sheets import recovered_lengths
 
-#: Lateral length over height from which on hexes at a wall are thin. Meshers that make no layers seldom reach it.
+#: Lateral length over height from which on hexes at a wall are thin. Beside layers, and in graded blocks, it is less.
 THIN = 3.0
 #: Least ratio of successive heights that grow. That of equal heights is 1, but for noise.
 LEAST_GROWTH = 1.02
