@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.layers.targets import MAX_DISTORTED
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.target.edge_lengths import given_lengths
@@ -11,8 +12,6 @@ from hexmend.target.sheets import DISTORTED
 
 #: Factor beyond which a length has changed much, and the share of hexes with such a length that is worth a sentence.
 _MUCH, _SHARE = 2.0, 0.05
-#: Share of distorted hexes beyond which lengths as given are no measure.
-_MAX_DISTORTED = 0.01
 #: Approximate number of hexes that are compared.
 _SAMPLE = 50_000
 
@@ -27,7 +26,7 @@ def grading_message(before: Mesh, after: Mesh, quality: ElementQuality) -> str:
     quality : ElementQuality
         Of the mesh before.
     """
-    if np.mean(quality.scaled_jacobian < DISTORTED) > _MAX_DISTORTED:
+    if np.mean(quality.scaled_jacobian < DISTORTED) > MAX_DISTORTED:
         return ""
     sample = np.arange(0, before.n_hexes, before.n_hexes // _SAMPLE + 1)
     factors = np.exp(np.abs(np.log(given_lengths(after, sample) / given_lengths(before, sample)))).max(axis=1)

@@ -8,8 +8,8 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.errors import MeshError
-from hexmend.layers.columns import LEAST_RATIO_NAMED, Columns, walk_columns
-from hexmend.layers.walls import Layers, Wall
+from hexmend.layers.columns import walk_columns
+from hexmend.layers.walls import Layers, layers_of_columns
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.quality import ElementQuality
@@ -50,25 +50,18 @@ def layers_on_sets(mesh: Mesh, names: Sequence[str], quality: ElementQuality | N
     """
     neighbours = mesh.topology.face_neighbours
     hexes, faces = np.nonzero(neighbours < 0)
-    wall_of_face = np.full(len(hexes), -1)
-    for number, name in enumerate(names):
+    wall = np.full(len(hexes), "", dtype=object)
+    for name in names:
         marks = _faces_in_set(mesh, name, hexes, faces)
         if not marks.any():
             raise MeshError(
                 f"the set {name!r} has no face on the boundary, on which layers could stand: name a set of boundary "
                 "faces, or of all nodes of such faces"
             )
-        wall_of_face[marks & (wall_of_face < 0)] = number
-    chosen = np.flatnonzero(wall_of_face >= 0)
-    lengths = recovered_lengths(mesh, quality)
-    columns = walk_columns(neighbours, lengths.__getitem__, hexes[chosen], faces[chosen], LEAST_RATIO_NAMED)
-    columns = columns.separated(mesh.n_hexes)
-    walls = (_wall(name, columns.rows(wall_of_face[chosen] == number)) for number, name in enumerate(names))
-    return Layers(tuple(sorted((wall for wall in walls if wall.count), key=lambda wall: -wall.count)))
-
-
-def _wall(name: str, columns: Columns) -> Wall:
-    return Wall(name, columns.hexes, columns.faces)
+        wall[marks & (wall == "")] = name
+    chosen = wall != ""
+    columns = walk_columns(neighbours, recovered_lengths(mesh, quality), hexes[chosen], faces[chosen])
+    return layers_of_columns(wall[chosen], *columns, mesh.n_hexes)
 
 
 def _faces_in_set(mesh: Mesh, name: str, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:

@@ -21,8 +21,8 @@ _AS_THEY_ARE = ("given-shape", "given")
 
 #: Aspect ratios between which the target of hexes outside of layers goes from a cube to the shape as given.
 _CUBE, _AS_GIVEN = 2.0, 4.0
-#: Share of distorted hexes in layers beyond which their heights as given are no measure.
-_MAX_DISTORTED = 0.01
+#: Share of distorted hexes beyond which lengths as given are no measure.
+MAX_DISTORTED = 0.01
 
 
 def keeps_layers(specification: str, layers: str) -> bool:
@@ -81,7 +81,7 @@ def run_target(
         if mesh.element_target is not None:
             return mesh.element_target
         specification = "given-shape" if layers else "ideal"
-        fits = bool(layers) and np.mean(quality.scaled_jacobian[layers.hexes] < DISTORTED) > _MAX_DISTORTED
+        fits = bool(layers) and np.mean(quality.scaled_jacobian[layers.hexes] < DISTORTED) > MAX_DISTORTED
     target = make_target(mesh, specification, size_weight, quality)
     if not layers or (specification in _AS_THEY_ARE and not fits):
         return target

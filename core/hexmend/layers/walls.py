@@ -69,3 +69,30 @@ class Layers:
         more = [f"{len(self.walls) - 3} more"] if len(self.walls) > 3 else []
         *first, last = named + more
         return f"{', '.join(first)} and {last}" if first else last
+
+
+def layers_of_columns(names: np.ndarray, hexes: np.ndarray, faces: np.ndarray, n_hexes: int) -> Layers:
+    """Group columns into walls; of columns that meet from opposite walls, each hex belongs to the nearer wall.
+
+    Parameters
+    ----------
+    names : (w,) str
+        Name of each column's wall.
+    hexes : (w, k) int32
+    faces : (w, k) int8
+        See `Wall`.
+    n_hexes : int
+        Number of hexes of the mesh.
+    """
+    there = hexes >= 0
+    direction = 3 * hexes.astype(np.int64) + faces // 2
+    layer = np.broadcast_to(np.arange(hexes.shape[1]), hexes.shape)
+    nearest = np.full(3 * n_hexes, hexes.shape[1])
+    np.minimum.at(nearest, direction[there], layer[there])
+    hexes = np.where(there & (layer <= nearest[direction]), hexes, -1)
+    walls = []
+    for name in dict.fromkeys(names.tolist()):
+        rows = names == name
+        deepest = int((hexes[rows] >= 0).any(axis=0).sum())
+        walls.append(Wall(name, hexes[rows, :deepest], faces[rows, :deepest]))
+    return Layers(tuple(sorted(walls, key=lambda wall: -wall.count)))

@@ -7,16 +7,17 @@ import numpy as np
 from hexmend.io.formats.vtk.grid import HEXAHEDRON, KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.formats.vtk.merge_grids import GHOSTS
 from hexmend.io.slices import GridSlice
-from hexmend.layers.detection import DISTORTED, MIN_FACES, least_faces, short_faces, thin_in_volume
+from hexmend.layers.detection import THIN, sizes_at_wall
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import is_name_of_materials
-from hexmend.quality import measure
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart
 
 #: Prefix of arrays of ones and zeros that hold sets.
 _SET = "set:"
+#: Walls with a smaller share of the boundary's faces are not looked for: a scrambled mesh has thin hexes anywhere.
+_LEAST_SHARE = 1 / 300
 
 
 class NotDivisibleError(Exception):
@@ -88,20 +89,21 @@ def _tells_materials(ranks: MPIRanks, name: str, values: np.ndarray) -> bool:
 
 
 def may_have_layers(part: RankPart) -> bool:
-    """Return False if the divided mesh certainly has no boundary layers; all ranks call it together.
+    """Return False if the divided mesh has no boundary layers; all ranks call it together.
 
-    It is the first test of `hexmend.layers.find_layers`, which needs the whole mesh for the others.
+    Only the whole mesh tells whether it has, see `hexmend.layers.find_layers`. Volumes over several faces tell thin
+    hexes: single edges of a scrambled mesh may be short anywhere.
     """
     mesh, ranks = part.mesh, part.ranks
     hexes, faces = np.nonzero(mesh.topology.face_neighbours < 0)
-    real = part.owned[mesh.hexes[hexes[:, None], FACES[faces]]].any(axis=1)  # others are where the part ends
-    hexes, faces = hexes[real], faces[real]
+    quads = mesh.hexes[hexes[:, None], FACES[faces]]
+    real = part.owned[quads].any(axis=1)  # others are where the part ends
+    hexes, faces, quads = hexes[real], faces[real], quads[real]
+    volume, area, side = sizes_at_wall(mesh, hexes, faces)
+    nodes = quads.ravel()
+    at_nodes = (ranks.complete(np.bincount(nodes, np.repeat(of, 4), mesh.n_nodes)) for of in (volume, area))
+    volumes, areas = (values[quads].sum(axis=1) for values in at_nodes)
+    thin = volumes * THIN < side * areas
     counted = part.counted[hexes]
-    short = short_faces(mesh, hexes, faces)
-    if ranks.sum(int(np.count_nonzero(short & counted))) < MIN_FACES:
-        return False
-    quality = measure(mesh.points, mesh.hexes)
-    distorted = ranks.any(quality.scaled_jacobian < DISTORTED)
-    thin = short & thin_in_volume(mesh, hexes, faces, ranks.complete)
-    n_faces = ranks.sum(int(np.count_nonzero(counted)))
-    return ranks.sum(int(np.count_nonzero(thin & counted))) >= least_faces(n_faces, distorted)
+    share = _LEAST_SHARE * ranks.sum(int(np.count_nonzero(counted)))
+    return ranks.sum(int(np.count_nonzero(thin & counted))) >= max(1, share)
