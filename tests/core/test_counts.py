@@ -10,7 +10,9 @@ from hexmend.boundary import SurfaceChange
 from hexmend.doctor import examine
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
+from hexmend.quality import measure
 from hexmend.run import smooth
+from hexmend.run.messages import name_invalid
 from hexmend.smoothers.mend.messages import freed_message, omission_message
 from tests.core.grids import grid
 
@@ -86,3 +88,11 @@ def test_runs_on_small_meshes(n):
                 *(s.text for s in advice.suggestions),
             ):
                 checked(text)
+
+
+def test_invalid_hexes_are_named_with_the_ids_of_the_file():
+    mesh = grid(2)
+    points = mesh.points.copy()
+    points[0] = 1.5
+    mesh = mesh.with_points(points).replace(hex_data={"id": np.arange(8) + 100})
+    assert "Invalid hexes: 0 (in the file 100)" in name_invalid(mesh, measure(points, mesh.hexes))

@@ -150,3 +150,8 @@ def test_a_run_refuses_left_handed_hexes_and_names_the_remedy():
     with pytest.raises(MeshError, match=r"1 hex, unlike its neighbours, is numbered inside out .* hexmend repair"):
         iterate(wrong)
     assert smooth(repair(wrong)[0]).after.inverted == 0
+
+
+def test_volumes_far_from_the_origin_are_those_of_the_hexes():
+    mesh = grid(2)
+    np.testing.assert_allclose(orientation.signed_volumes(mesh.points + 1e5, mesh.hexes), 1, rtol=1e-6)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
@@ -120,3 +121,11 @@ def test_the_header_gives_the_width_of_ids(most, status, tmp_path):
         assert (file.int64_status, file.file_size, file.floating_point_word_size) == (status, 1, 8)
         assert file.api_version == file.version == np.float32(8.03)
         assert file["elem_num_map"][:].max() == most
+
+
+def test_cells_without_ids_follow_the_highest_one(tmp_path):
+    lines = [Cells("line", np.array([[k, k + 1]], np.int32)) for k in range(2)]
+    io.write(tmp_path / "a.exo", grid(2).replace(hex_data={"id": np.arange(8) + 10}, cells=tuple(lines)))
+    netCDF4 = pytest.importorskip("netCDF4")
+    with netCDF4.Dataset(tmp_path / "a.exo") as file:
+        assert file["elem_num_map"][:].tolist() == list(range(10, 20))
