@@ -224,8 +224,7 @@ def _limit(
     shorten_to_range(step, energy.unit, energy.ranks)
     if np.isfinite(max_step):
         if by_edges:
-            rings = energy.mesh.topology.rings
-            shorten(step, x, rings.start, rings.items, energy.nodes, max_step)
+            shorten(step, x, energy.mesh.topology.hex_mesh, energy.nodes, max_step)
         halve_harmful_steps(energy, x, delta, step)
     return energy.directional_derivative(x, delta, step, gradient)
 

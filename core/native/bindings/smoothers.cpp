@@ -176,9 +176,9 @@ void bind_patches(nb::module_ m) {
 
 void bind_step_limits(nb::module_ m) {
     m.doc() = "Steps of nodes: their limits, and the points that they lead to.";
-    m.def("shorten", &shorten, "step"_a, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "reach"_a, ReleaseGil(),
+    m.def("shorten", &shorten, "step"_a, "points"_a, "mesh"_a, "nodes"_a, "reach"_a, ReleaseGil(),
           "Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the\n"
-          "node's edges; changes step. ring_start, ring: `Topology.rings`.");
+          "node's edges; changes step.");
     m.def("displaced", &displaced, "points"_a, "nodes"_a, "step"_a, "alpha"_a, "moved"_a, ReleaseGil(),
           "Points (n, 3) with `nodes` (k,) displaced by alpha times their steps (k, 3); writes moved (n, 3).");
 }

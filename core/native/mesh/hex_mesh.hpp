@@ -22,6 +22,15 @@ struct HexMesh {
 
     // The largest number of hexes at a node.
     int largest_star() const { return widest(start); }
+
+    // Write the edge neighbours of a node, ascending, and return their number, at most 3 for each hex of its star.
+    int ring(Node i, Node *to) const {
+        int size = 0;
+        for (auto corner : star(i))
+            for (int k = 1; k < 4; ++k)
+                if (Node j = hexes[corner / 8][CORNER_TETRAHEDRA[corner % 8][k]]; j != i) placed(to, size, j);
+        return size;
+    }
 };
 
 // Throw unless there is a point for each node of the mesh.

@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "mesh/colouring.hpp"
-#include "mesh/csr.hpp"
+#include "mesh/hex_mesh.hpp"
 
 namespace hexmend {
 
@@ -154,15 +154,9 @@ void join(std::span<std::int32_t> parent, Indices items, int width) {
 
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items) {
     expect_corners(hexes.size(), start, corners);
-    return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Node *ring) {
-        int size = 0;
-        for (auto s = start[i]; s < start[i + 1]; ++s)
-            for (int k = 1; k < 4; ++k) {
-                Node j = hexes[corners[s] / 8][CORNER_TETRAHEDRA[corners[s] % 8][k]];
-                if (j != i) placed(ring, size, j);
-            }
-        return size;
-    }));
+    const HexMesh mesh{hexes, start, corners};
+    return arrays(CSRBuilder<Node>(mesh.nodes(), 3 * mesh.largest_star() + 1, max_items,
+                                   [&](std::int64_t i, Node *ring) { return mesh.ring(i, ring); }));
 }
 
 IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {

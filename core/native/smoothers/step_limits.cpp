@@ -1,24 +1,27 @@
 #include "smoothers/step_limits.hpp"
 
 #include <algorithm>
+#include <vector>
 
-#include "mesh/csr.hpp"
 #include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 
-void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach) {
+void shorten(std::span<Point> step, Points points, const HexMesh &mesh, Indices nodes, double reach) {
     expect(step.size() == nodes.size(), "step: a row for each of nodes is expected");
-    expect_rings(points.size(), ring_start, ring);
-    parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
-        const Node i = nodes[k];
-        double total = 0;
-        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
-            total += length(vector(points[ring[s]]) - vector(points[i]));
-        double furthest = reach * total / (ring_start[i + 1] - ring_start[i]);
-        double far = length(vector(step[k]));
-        if (far > furthest)
-            for (double &x : step[k]) x *= furthest / far;
+    expect_points(mesh, points);
+    const int most = 3 * mesh.largest_star();
+    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Node> ring(most);
+        for (auto k = begin; k < end; ++k) {
+            const int size = mesh.ring(nodes[k], ring.data());
+            double total = 0;
+            for (int s = 0; s < size; ++s) total += length(vector(points[ring[s]]) - vector(points[nodes[k]]));
+            double furthest = reach * total / size;
+            double far = length(vector(step[k]));
+            if (far > furthest)
+                for (double &x : step[k]) x *= furthest / far;
+        }
     });
 }
 

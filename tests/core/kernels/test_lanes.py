@@ -172,7 +172,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     energy.ordered_nodes = BlockSparsity(mesh, parts)
     assert energy.sparsity.bounds.size == 2 * parts
     x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
-    colours, rings = mesh.topology.colouring(mesh.free), mesh.topology.rings
+    colours = mesh.topology.colouring(mesh.free)
     settings = local.NodeStepSettings(local.Direction.NEWTON, 0.1, SQUARES, LineSearch())
     try:
         for threads in (1, 2, 3, 5):
@@ -182,7 +182,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
             swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
             local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
-            step_limits.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
+            step_limits.shorten(step, x, mesh.topology.hex_mesh, energy.nodes, 0.1)
             pattern = BlockSparsity(mesh, parts)
             found = matrix.off_diagonal, matrix.diagonal, solved.x, swept, places, step, pattern.columns
             answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])

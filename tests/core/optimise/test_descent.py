@@ -52,8 +52,8 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
 def test_steps_are_shortened_to_a_share_of_the_mean_edge_at_their_node(seed, reach):
     mesh, energy, x = problem(seed)
     steps = np.random.default_rng(seed).normal(scale=0.1, size=(energy.nodes.size, 3))
-    found, rings = steps.copy(), mesh.topology.rings
-    step_limits.shorten(found, x, rings.start, rings.items, energy.nodes, reach)
+    found = steps.copy()
+    step_limits.shorten(found, x, mesh.topology.hex_mesh, energy.nodes, reach)
     most = reach * own_edges(mesh, x)[energy.nodes]
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), np.minimum(np.linalg.norm(steps, axis=1), most))
 
