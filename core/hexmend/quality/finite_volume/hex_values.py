@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from hexmend.quality.measure import ElementQuality
 #: Fields of `FaceQuality`, and their better end: 1 if higher values are better, -1 if lower ones are.
 _FIELDS = {"non_orthogonality": -1, "skewness": -1, "weight": 1, "volume_ratio": 1}
 
+#: Values of the mesh that was measured last, by its quality: all fields take hardly longer than one.
+_LAST: WeakKeyDictionary[ElementQuality, Mapping[str, np.ndarray]] = WeakKeyDictionary()
+
 
 def of_hexes(field: str) -> Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]:
     """Make the function for `Metric.of` of a field of `FaceQuality`; neighbours are those among the given hexes."""
@@ -23,7 +27,7 @@ def of_hexes(field: str) -> Callable[[np.ndarray, np.ndarray, ElementQuality], n
     def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
         points = as_points(points)
         hexes = as_hexes(hexes, len(points))
-        return _values(field, points, hexes, Topology(hexes, len(points)))
+        return _values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
 
     return of
 
@@ -32,12 +36,19 @@ def of_mesh(field: str) -> Callable[[Mesh, ElementQuality], np.ndarray]:
     """Make the function for `Metric.of_mesh` of a field of `FaceQuality`, which uses the mesh's topology."""
 
     def of(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-        return _values(field, mesh.points, mesh.hexes, mesh.topology)
+        return _values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
 
     return of
 
 
-def _values(field: str, points: np.ndarray, hexes: np.ndarray, topology: Topology) -> np.ndarray:
-    """Worst value of a field of `FaceQuality` over the faces of each hex, (m,) float64."""
-    faces = face_quality(cell_geometry(points, hexes), hexes, topology.face_neighbours)
-    return worst_of_hexes(faces, getattr(faces, field), len(hexes), _FIELDS[field])
+def _values(
+    points: np.ndarray, hexes: np.ndarray, quality: ElementQuality, topology: Callable[[], Topology]
+) -> Mapping[str, np.ndarray]:
+    """Worst value over the faces of each hex, (m,) float64, by the field of `FaceQuality`."""
+    values = _LAST.get(quality)
+    if values is None:
+        faces = face_quality(cell_geometry(points, hexes), hexes, topology().face_neighbours)
+        values = {name: worst_of_hexes(faces, getattr(faces, name), len(hexes), of) for name, of in _FIELDS.items()}
+        _LAST.clear()
+        _LAST[quality] = values
+    return values

@@ -104,3 +104,13 @@ def test_metrics_are_the_worst_of_the_faces():
         for h in (0, 21, 63):
             own = values[(faces.owner == h) | (faces.neighbour == h)]
             assert worst[h] == choose(own)
+
+
+def test_other_points_have_other_values_though_the_last_are_kept():
+    first, second = (scrambled(grid(4), 0.3, seed) for seed in (1, 2))
+    metric, figures = METRICS["face-skewness"], measure(first.points, first.hexes)
+    one = metric.values(first, figures)
+    assert metric.values(first, figures) is one
+    other = metric.values(second, measure(second.points, second.hexes))
+    assert (one != other).any()
+    np.testing.assert_array_equal(metric.values(first, figures), one)
