@@ -148,8 +148,9 @@ def circle(graph: dict[str, set[str]]) -> str:
     return ""
 
 
-#: Names that the modules of a folder do not import.
+#: Packages that draw.
 DRAWS = {"pyvista", "vtk", "vtkmodules", "pyvistaqt", "pyqtgraph", "qtpy"}
+#: Names that the modules of a folder do not import.
 FORBIDDEN = {
     "core/hexmend": {*WINDOWS, "benchmarks", "tests", "scripts"},
     "app/hexmend_app": {"benchmarks", "tests", "scripts"},

@@ -192,3 +192,11 @@ def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, 
     which = ["--method" if command == "smooth" else "--methods", "laplacian"]
     main([command, str(tmp_path / "bridge.vtu"), "-o", str(tmp_path / "out.vtu"), *which, *words])
     assert ("\x1b[31m" in capsys.readouterr().out) == bool(words)
+
+
+@pytest.mark.slow
+def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
+    mesh = io.read(real_mesh("pierrot_32735.mesh"))
+    result = smooth(mesh, "smart-laplacian")
+    assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
+    assert "was kept: " in result.message

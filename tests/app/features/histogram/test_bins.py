@@ -120,3 +120,11 @@ def test_all_cells_are_no_range_and_invalid_cells_are_rejected():
     for first, last in ((3, 2), (-1, 4), (0, 11)):
         with pytest.raises(ValueError, match="the lower first"):
             cells.range(first, last)
+
+
+def test_a_quality_that_exceeds_one_by_rounding_is_counted_and_within_the_range():
+    counted = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
+    assert counted.counts[-1] == 1
+    assert counted.within(Show((0.9, 1.0), "q")) == 1
+    assert counted.within(Show((0.9, 1.0), "q", True)) == 2
+    assert counted.within(Show((0.9, 0.99), "q")) == 0

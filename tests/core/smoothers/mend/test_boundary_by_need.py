@@ -229,3 +229,11 @@ def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monke
     result = smooth(mesh.with_points(points), Mend(**{"goal": "scaled-jacobian", "boundary": "slide"} | settings))
     assert [(found.passed_over, found.shape is None) for found in starts] == [(passed_over, passed_over)]
     assert (result.after.inverted == 0) == (settings.get("surface_tolerance") != 0.0)
+
+
+@pytest.mark.slow
+def test_hexes_that_untangling_leaves_inverted_are_raised_from_where_the_fewest_are(real_mesh):
+    """From the start of other detours some hexes of this mesh end flat."""
+    result = smooth(read(real_mesh("dragon_in.mesh")), Mend(goal="scaled-jacobian", boundary="slide"))
+    assert result.after.inverted == 0
+    assert result.after.scaled_jacobian_min > 0.1
