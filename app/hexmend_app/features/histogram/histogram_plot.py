@@ -174,10 +174,7 @@ class HistogramPlot(QWidget):
 
     def _show_counts(self, smallest: float) -> None:
         left, high = self.plot.getAxis("left"), self.heights.top
-        if self.log:
-            ticks = log_ticks(math.ceil(math.log10(smallest) - 1e-9), high)
-        else:
-            ticks = [(tick, f"{tick:,.0f}") for tick in nice_ticks(0, high, _COUNT_TICKS)]
+        ticks = log_ticks(math.ceil(math.log10(smallest) - 1e-9), high) if self.log else count_ticks(high)
         left.setTicks([ticks])
         left.setLabel(tr("% of hexes") if self.cumulative else tr("hexes"))
         left.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized
@@ -208,3 +205,12 @@ class HistogramPlot(QWidget):
         self.colour_range.end_at(1 - fraction)
         low = self.heights.floor
         self.plot.setYRange(low, low + (self.heights.at_fraction(BROKEN_TOP) - low) / (1 - fraction), padding=0)
+
+
+def count_ticks(top: float) -> list[tuple[float, str]]:
+    """Return ticks from 0 to the top of an axis of counts, with their texts: whole numbers only.
+
+    >>> count_ticks(13.0)
+    [(0.0, '0'), (5.0, '5'), (10.0, '10')]
+    """
+    return [(tick, f"{tick:,.0f}") for tick in nice_ticks(0, top, _COUNT_TICKS) if tick == round(tick)]
