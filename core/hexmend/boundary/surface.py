@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import mask
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
 from hexmend.boundary.normals import PieceDirections
@@ -41,7 +40,7 @@ class PartitionedSurface:
     node_class, part
         Class and part, as in `Boundary`, of the nodes that slide on the surface; see `attached`.
     trees : ClosestPointTrees
-        Patch i is group i, curve i is group `n_patches` + i; `with_union` adds a last group.
+        Patch i is group i, curve i is group `n_patches` + i.
 
     Examples
     --------
@@ -89,14 +88,13 @@ class PartitionedSurface:
         trees = ClosestPointTrees(self.trees.points, self.trees.pieces[curves], np.zeros(curves.size, np.int64))
         return trees, self._group[curves[trees.order]]
 
-    def with_union(self, patches: np.ndarray) -> PartitionedSurface:
-        """Return this surface with one more group of `trees`, the last: that of some patches, (n_patches,) bool."""
-        other, trees, last, own = copy.copy(self), self.trees, self.n_patches + self.n_curves, self._group
-        again = np.flatnonzero(mask(np.flatnonzero(patches), last)[own])
-        group = np.concatenate([own, np.full(again.size, last, dtype=own.dtype)])
-        other.trees = ClosestPointTrees(trees.points, np.concatenate([trees.pieces, trees.pieces[again]]), group)
-        other._given = np.concatenate([self._given, self._given[again]])[other.trees.order]
-        return other
+    def trees_with_union(self, unit: float) -> ClosestPointTrees:
+        """Return trees of the patches, the curves, and as one more group all patches, for points in another unit."""
+        own = self._group
+        again = np.flatnonzero(own < self.n_patches)
+        group = np.concatenate([own, np.full(again.size, self.n_patches + self.n_curves, dtype=own.dtype)])
+        pieces = np.concatenate([self.trees.pieces, self.trees.pieces[again]])
+        return ClosestPointTrees(self.trees.points / unit, pieces, group)
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
         """Return the group of `trees` on which each of some nodes slides.

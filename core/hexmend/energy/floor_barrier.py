@@ -7,8 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.kernels import floor_barrier as kernels
-from hexmend.kernels.assembly import HexShares
+from hexmend.kernels import threads
 from hexmend.kernels.target import TargetMatrices
 
 
@@ -74,12 +75,8 @@ class FloorBarrier:
         kernels.add_gradient(x, hexes, self._floors, omitted, shares, target)
 
     def assemble(
-        self,
-        x: np.ndarray,
-        omitted: np.ndarray,
-        shares: HexShares,
-        blocks: tuple[np.ndarray, np.ndarray],
-        target: TargetMatrices | None,
+        self, x: np.ndarray, omitted: np.ndarray, matrix: AssembledHessian, target: TargetMatrices | None
     ) -> None:
-        """Add its Hessian to the blocks of a matrix, those above the diagonal and those on it; see `hex_values`."""
-        kernels.assemble(x, self._floors, omitted, shares, *blocks, target)
+        """Add its Hessian to a matrix; see `hex_values`."""
+        shares = matrix.sparsity.shares(threads())
+        kernels.assemble(x, self._floors, omitted, shares, matrix.off_diagonal, matrix.diagonal, target)

@@ -13,10 +13,11 @@ from hexmend.kernels import objective as kernels
 
 if TYPE_CHECKING:
     from hexmend.energy.floor_barrier import FloorBarrier
+    from hexmend.energy.height_barrier import HeightBarrier
     from hexmend.energy.norm import ObjectiveNorm
-    from hexmend.energy.quads.surface_term import SurfaceTerm
     from hexmend.energy.ranks import Ranks
     from hexmend.energy.sparsity import BlockSparsity
+    from hexmend.energy.terms import Term
     from hexmend.kernels.target import TargetMatrices
     from hexmend.mesh.mesh import Mesh
 
@@ -34,8 +35,8 @@ class EnergyOfHexes(Protocol):
     nodes: np.ndarray
     slots: np.ndarray
     target: TargetMatrices | None
-    barrier: FloorBarrier | None
-    surface: SurfaceTerm | None
+    barrier: FloorBarrier | HeightBarrier | None
+    surface: Term | None
     sparsity: BlockSparsity
     ranks: Ranks
     precision: type
@@ -133,7 +134,7 @@ class Hessian(SymmetricOperator):
         else:
             assembly.assemble(*given, *blocks, energy.target)
         if energy.barrier is not None:
-            energy.barrier.assemble(self.x, energy.omitted, shares, blocks, energy.target)
+            energy.barrier.assemble(self.x, energy.omitted, matrix, energy.target)
         if energy.surface is not None:
             energy.surface.assemble(self.x, energy.norm, matrix)
         if self.shift:

@@ -10,6 +10,7 @@ from hexmend.arrays import as_immutable_owned, dot, index_of, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
@@ -18,7 +19,7 @@ from hexmend.energy.sliding_energy import SlidingEnergy
 from hexmend.mesh.mesh import Mesh
 
 if TYPE_CHECKING:
-    from hexmend.energy.quads.surface_term import SurfaceTerm
+    from hexmend.energy.terms import Term
 
 
 def energy_of(mesh: Mesh, norm: ObjectiveNorm = SQUARES, sliding: SlidingBoundary | None = None) -> MeshEnergy:
@@ -67,7 +68,7 @@ class LinearMotionEnergy(MeshEnergy):
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
         self.limits_moves = energy.limits_moves
         self.slides = isinstance(energy, SlidingEnergy)
-        self.has_parts = self.slides and not self.reduction.has_ties
+        self.has_parts = not self.reduction.has_ties
 
     def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> MeshEnergy:
         if not self.has_parts:
@@ -84,14 +85,15 @@ class LinearMotionEnergy(MeshEnergy):
         other.energy = self.energy.with_objective(norm, omitted)
         return other
 
-    def with_barrier(self, barrier: FloorBarrier | None) -> LinearMotionEnergy:
+    def with_barrier(self, barrier: FloorBarrier | HeightBarrier | None) -> LinearMotionEnergy:
         other = super().with_barrier(barrier)
         other.energy = self.energy.with_barrier(barrier)
         return other
 
-    def with_surface(self, surface: SurfaceTerm | None) -> LinearMotionEnergy:
+    def with_surface(self, surface: Term | None) -> LinearMotionEnergy:
         other = super().with_surface(surface)
         other.energy = self.energy.with_surface(surface)
+        other.limits_moves = other.energy.limits_moves
         return other
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 
 from hexmend.arrays import as_immutable_owned, dot, index_of
 from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
@@ -26,7 +27,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 
 if TYPE_CHECKING:
-    from hexmend.energy.quads.surface_term import SurfaceTerm
+    from hexmend.energy.terms import Term
 
 
 class MeshEnergy(TargetScales):
@@ -53,8 +54,8 @@ class MeshEnergy(TargetScales):
         Of the mesh, in the energy's unit of length.
     barrier : FloorBarrier or None
         Added to the energy; for delta = 0.
-    surface : SurfaceTerm or None
-        Energy of the boundary's quads, added to that of the hexes.
+    surface : Term or None
+        Of the boundary, added to that of the hexes.
 
     Examples
     --------
@@ -84,8 +85,8 @@ class MeshEnergy(TargetScales):
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._set_target(mesh)
-        self.barrier: FloorBarrier | None = None
-        self.surface: SurfaceTerm | None = None
+        self.barrier: FloorBarrier | HeightBarrier | None = None
+        self.surface: Term | None = None
         self._workspace = Workspace()
         self._ordered: list[BlockSparsity] = []  # none before first use; shared by copies
         self._evaluated: tuple[tuple, tuple, tuple] | None = None
@@ -158,7 +159,7 @@ class MeshEnergy(TargetScales):
         """
         energy = MeshEnergy(part, self.norm, self.omitted[hexes])
         self._give_to_part(energy, hexes)
-        return energy
+        return energy if self.surface is None else energy.with_surface(self.surface.on_part(nodes, part.free, x))
 
     def _give_to_part(self, energy: MeshEnergy, hexes: np.ndarray) -> None:
         """Give the unit, barrier and target of some hexes (k,) to the energy of a part."""
@@ -189,16 +190,17 @@ class MeshEnergy(TargetScales):
         other.norm, other.omitted = norm, as_omitted_corners(omitted, self.mesh.n_hexes)
         return other
 
-    def with_barrier(self, barrier: FloorBarrier | None) -> MeshEnergy:
+    def with_barrier(self, barrier: FloorBarrier | HeightBarrier | None) -> MeshEnergy:
         """Return a copy to which a barrier of floors is added in place of its own; see `with_objective`."""
         other = copy.copy(self)
         other.barrier = barrier
         return other
 
-    def with_surface(self, surface: SurfaceTerm | None) -> MeshEnergy:
-        """Return a copy with a term of boundary quads in place of its own; see `with_objective`."""
+    def with_surface(self, surface: Term | None) -> MeshEnergy:
+        """Return a copy with a term of the boundary in place of its own; see `with_objective`."""
         other = copy.copy(self)
         other.surface = surface
+        other.limits_moves = surface is not None and (self.limits_moves or surface.limits_moves)
         return other
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
@@ -296,7 +298,7 @@ class MeshEnergy(TargetScales):
 
         With `changed`, (n,) bool, other nodes are known to be where they may.
         """
-        return None
+        return None if self.surface is None else self.surface.beyond(self.as_points(x), self.as_points(moved))
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
         """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""

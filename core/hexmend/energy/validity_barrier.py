@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -66,6 +67,7 @@ class ValidityBarrier:
 
     #: It adds nothing to the energy of perfect hexes.
     total_weight = 0.0
+    limits_moves = False
 
     @classmethod
     def of(cls, hexes: np.ndarray, x: np.ndarray, band: float, weight: float) -> ValidityBarrier:
@@ -99,6 +101,10 @@ class ValidityBarrier:
         z = np.minimum(y, 1.0) - 1
         return self.weight * float((-np.log1p(z) + z - z**2 / 2).sum())
 
+    def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Self:
+        """Raise `NotImplementedError`: it is made for what moves."""
+        raise NotImplementedError
+
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute the gradient by all nodes, (n, 3)."""
         first, _, by_nodes = self._derivatives(x)
@@ -109,6 +115,9 @@ class ValidityBarrier:
         """Add the second derivatives to a matrix, without those of the coefficients (Gauss-Newton): semidefinite."""
         _, second, by_nodes = self._derivatives(x)
         self.blocks.add(np.einsum("hi,hicx,hidy->hcdxy", second, by_nodes, by_nodes), matrix)
+
+    def beyond(self, x: np.ndarray, there: np.ndarray) -> None:
+        """Return None: it limits no moves; see `hexmend.energy.terms.Term`."""
 
     def _relative(self, x: np.ndarray) -> np.ndarray:
         """Coefficients at points x (n, 3), (k, 125), relative to `sizes`."""

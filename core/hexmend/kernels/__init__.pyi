@@ -14,7 +14,6 @@ from hexmend.kernels import hex_mesh as hex_mesh
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
 from hexmend.kernels import line_search as line_search
-from hexmend.kernels import linear_program as linear_program
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
@@ -27,6 +26,7 @@ from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity
 from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure
+from hexmend.kernels import surface_fit as surface_fit
 from hexmend.kernels import target as target
 from hexmend.kernels import validity as validity
 from hexmend.kernels import wavefronts as wavefronts

@@ -52,12 +52,3 @@ def corner_jacobians(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
     Scaled Jacobians of the eight corner tetrahedra of every hex, sigma/(|e1||e2||e3|), -1 where an edge has
     no length; writes jacobians (m, 8) float64.
     """
-
-def jacobian_gradients(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], jacobians: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], derivatives: Annotated[NDArray[numpy.float64], dict(shape=(None, 12), order='C', device='cpu')]) -> None:
-    """
-    Scaled Jacobians of corners (k, 4) int32, the apex and the ends of its edges each, and their derivatives
-    by these four points.
-
-    Writes jacobians (k,), -1 where an edge has no length, and derivatives (k, 12), 0 there. Runs on one
-    thread.
-    """

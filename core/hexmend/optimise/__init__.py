@@ -1,1 +1,1 @@
-"""Parts of optimisation methods: search directions, line search, linear solvers, and the max-min problem."""
+"""Parts of optimisation methods: search directions, line search, linear solvers, and floors of quality."""

@@ -117,13 +117,14 @@ class TruncatedNewton:
         self._first = self._last = np.inf
         self._damping, self._is_definite = 0.0, False
         self._increases, self._used_damping, self._next_damping = 0, 0.0, 0.0  # of this step
+        self._last_tolerance = self.config.loosest
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         config, matrix = self.config, hessian.assembled(reuse=self._matrix)
         self._matrix = matrix
         tolerance = self._tolerance(hessian.energy.ranks.norm(gradient))
-        self._increases = 0
+        self._increases, self._last_tolerance = 0, tolerance
         solved, damping, count = self._solve_definite(matrix, gradient, tolerance, self._damping)
         matrix.lend_memory()  # to the next gradient
         self._is_definite, self._used_damping = damping == 0, damping
@@ -133,6 +134,22 @@ class TruncatedNewton:
         self._next_damping = self._damping
         np.negative(solved.x, out=solved.x)
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
+
+    def solve_again(self, right: np.ndarray) -> tuple[np.ndarray, int, bool]:
+        """Solve with the matrix of the last direction for another right-hand side (k, 3), as accurately.
+
+        Returns
+        -------
+        (k, 3) float64
+        int
+            Iterations.
+        bool
+            False where the matrix is not positive definite.
+        """
+        if self._matrix is None:
+            raise RuntimeError("solve_again comes after a direction has been found")
+        solved = self._solve(self._matrix, right.ravel(), self._last_tolerance, self._used_damping)
+        return solved.x.reshape(-1, 3), solved.iterations, not solved.negative_curvature
 
     def damped(self, gradient: np.ndarray, hessian: Hessian) -> SearchDirection | None:
         """Return the direction at the same points with more damping, where the limits of a step spoil the last one.

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
-from hexmend.energy import ObjectiveNorm
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.errors import ParameterError
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
@@ -19,10 +16,9 @@ from hexmend.ranks.rank_part import RankPart
 from hexmend.ranks.rank_sliding import RankSliding, RankSlidingEnergy
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.base import Steps
-from hexmend.smoothers.mend.balance import balance
-from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.floors import BARRIER_SAFE
+from hexmend.smoothers.mend.goals import reach_goal
 from hexmend.smoothers.mend.mend import Mend
-from hexmend.smoothers.mend.shape_optimum import ShapeOptimum
 from hexmend.smoothers.mend.stages import Stages, keeping
 
 _REMEDY = "run it in one process, without mpiexec"
@@ -74,41 +70,37 @@ class RankStages(Stages):
         if not balances and sliding is None:
             self.unsound = self._is_invalid_inside(shape.points)
             return shape.outcome
-        self.unsound, kept = self._is_unsound(mesh, shape.points, None), None
+        kept = None
+        self.unsound = self._is_unsound(energy, shape.points)
         if self.unsound:
             return Outcome.NO_IMPROVEMENT
+        starts, first = [given, shape.points], measure(given, mesh.hexes)
+        mean = -np.inf if self._part.ranks.any(first.inverted) else energy.mean(first.q)
         if sliding is not None:
             if balances:
-                fixed = yield from balance(self._sound_energy(mesh, shape.points, None), shape.points, given)
+                fixed = yield from reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
                 given, kept = fixed.points, measure(fixed.points, mesh.hexes)
-            mesh = sliding.mesh
-            shape = yield from keeping(kept, mesh.hexes, self._sliding_shape(sliding, shape.points), self._is_lower)
-            self.unsound = self._is_unsound(mesh, shape.points, sliding)
+            energy = RankSlidingEnergy(sliding, self.settings.first_norm_on(sliding.mesh))
+            steps = self._shape(sliding.with_points(shape.points), energy, True)
+            shape = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
+            starts = [given, shape.points]
+            self.unsound = self._is_unsound(energy, shape.points)
         if not balances or self.unsound:
             self.unsound = self.unsound or self._is_invalid_inside(shape.points)
             return shape.outcome
-        energy = self._sound_energy(mesh, shape.points, sliding)
-        begin = None if kept is None else given
-        steps = balance(energy, shape.points, given, begin=begin)
-        balanced = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
-        yield Step(balanced.points, decision=balanced.message, intermediate=True)
-        self.unsound = self._is_invalid_inside(balanced.points)
+        goal = reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
+        reached = yield from keeping(kept, mesh.hexes, goal, self._is_lower)
+        yield Step(reached.points, decision=reached.message, intermediate=True)
+        self.unsound = self._is_invalid_inside(reached.points)
         return Outcome.NO_IMPROVEMENT
 
-    def _sliding_shape(self, sliding: RankSliding, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
-        energy = self._energy(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
-        return (yield from self._shape(sliding.with_points(points), energy, True))
+    def _energy(self, mesh: Mesh, norm: ObjectiveNorm) -> RankEnergy:
+        return RankEnergy(self._part, norm)
 
-    def _energy(
-        self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | RankSliding | None = None
-    ) -> RankEnergy:
-        return RankEnergy(self._part, norm) if sliding is None else RankSlidingEnergy(sliding, norm)
-
-    def _is_unsound(self, mesh: Mesh, points: np.ndarray, sliding: RankSliding | None) -> bool:
+    def _is_unsound(self, energy: MeshEnergy, points: np.ndarray) -> bool:
         """Return True if the minimum scaled Jacobian of what can be moved is too low for the barrier of floors."""
-        energy = self._sound_energy(mesh, points, sliding)
         least = MovableHexes(energy).jacobians(energy.to_edge_units(points)).min(initial=np.inf)
-        return energy.ranks.least(float(least)) < MAXMIN.barrier_safe
+        return energy.ranks.least(float(least)) < BARRIER_SAFE
 
     def _is_invalid_inside(self, points: np.ndarray) -> bool:
         """Return True on all ranks if a hex is invalid between positive corners: one process alone makes it valid."""

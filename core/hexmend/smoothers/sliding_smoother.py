@@ -50,7 +50,7 @@ class SlidingSmoother(Smoother):
         high=10,
         unit="mean edge length",
         help="Largest distance between boundary and surface: with 0 nodes slide only where the surface is flat; "
-        "auto: 0.3, in mend up to 1 if untangling needs it.",
+        "auto: 0.3; in mend 0.07, or up to 20 times that if untangling needs it.",
         no_limit=UNLIMITED,
         automatic=AUTO,
         percent_of="diagonal",

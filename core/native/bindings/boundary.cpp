@@ -5,6 +5,7 @@
 #include "boundary/closest_point_cache.hpp"
 #include "boundary/near_points.hpp"
 #include "boundary/surface_distances.hpp"
+#include "boundary/surface_fit.hpp"
 #include "boundary/surface_points.hpp"
 #include "boundary/tangents.hpp"
 #include "smoothers/sliding.hpp"
@@ -137,6 +138,65 @@ void bind_closest_point(nb::module_ m) {
         "same patch (t,) int32 at the vertex, weighted by their angles; 0 where they have none.");
     m.def("means", &means, "points"_a, "nodes"_a, "x"_a, ReleaseGil(),
           "Write the mean (j, 3) of the four points of each row of nodes (j, 4) int32, which must exist.");
+}
+
+template <class Real> void bind_fit_hessian(nb::module_ m) {
+    m.def(
+        "hessian",
+        [](std::span<const SampleNodes> slots, std::span<double> distances, std::span<Point> vectors,
+           std::span<Point> directions, std::span<SampleWeights> weights, Numbers first, Numbers second,
+           std::span<const bool> of_line, Indices row_start, Indices columns,
+           std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+            fit_hessian<Real>(slots, {distances, vectors, directions, {}, weights}, {first, second, of_line}, row_start,
+                              columns, off_diagonal, diagonal);
+        },
+        "slots"_a, "distances"_a, "vectors"_a, "directions"_a, "weights"_a, "first"_a, "second"_a, "of_line"_a,
+        "row_start"_a, "columns"_a, "off_diagonal"_a, "diagonal"_a, ReleaseGil(),
+        "Add second derivatives of samples to a matrix, see `assembly.assemble`.\n\n"
+        "slots (k, 4) int32 of their nodes, -1 for none; distances, vectors, directions and weights as they are\n"
+        "written by `distances`; first and second (k,): derivatives of the cost by the distance, the first divided\n"
+        "by it; of_line (k,) bool: near a line or a point, else near a plane; row_start and columns of the blocks\n"
+        "above the diagonal.");
+}
+
+void bind_surface_fit(nb::module_ m) {
+    m.doc() = "Distances between a boundary that moves and the surface that it had, as terms of an energy.";
+    nb::class_<FitSamples>(m, "FitSamples", "Samples of a boundary and of its surface.")
+        .def(
+            "__init__",
+            [](FitSamples *self, std::span<const SampleNodes> nodes, Points first, Indices slots, Indices roots,
+               const ClosestPointCache &surface, Points directions, std::span<const std::array<Node, 4>> faces) {
+                expect(have_rows(nodes.size(), first, slots, roots),
+                       "nodes, first, slots and roots have different lengths: expected a row a sample");
+                new (self) FitSamples{nodes, first, slots, roots, &surface, directions, faces};
+            },
+            "nodes"_a, "first"_a, "slots"_a, "roots"_a, "surface"_a, "directions"_a, "faces"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
+            "nodes (s, 4) int32: a sample is their mean; first (s, 3): where it was on the surface; slots (s,) int32 "
+            "in\n"
+            "the cache of the surface, -1 for a sample that is compared with `first` alone; roots (s,) int32 of its\n"
+            "curve or patch in the trees of the boundary; directions (p, 3): unit normal or tangent of each piece of\n"
+            "the surface; faces (f, 4) int32, whose centres are the vertices after the nodes. Arrays are not copied.");
+    m.def(
+        "distances",
+        [](const FitSamples &samples, const BoxTrees &moving, Indices rows, std::span<std::int32_t> known,
+           std::span<double> distances, std::span<Point> vectors, std::span<Point> directions,
+           std::span<SampleNodes> nodes, std::span<SampleWeights> weights) {
+            fit_distances(samples, moving, rows, known, {distances, vectors, directions, nodes, weights});
+        },
+        "samples"_a, "moving"_a, "rows"_a, "known"_a, "distances"_a, "vectors"_a, "directions"_a, "nodes"_a,
+        "weights"_a, ReleaseGil(),
+        "Write of all samples, s of the boundary and then t of the surface, the distances (s + t,) from the other,\n"
+        "the vectors (s + t, 3) that grow as the boundary moves along them, the unit normal or tangent there, and\n"
+        "the nodes (s + t, 4) int32 that move with it with their weights (s + t, 4).\n\n"
+        "moving: trees of the boundary as it is, with boxes that are up to date. rows (k,) int32: those that are\n"
+        "written, each once. known (t,) int32: a piece near each sample of the surface, the first t of the boundary\n"
+        "as it was, -1 for none; it is written.");
+    m.def("add_gradient", &fit_gradient, "nodes"_a, "weights"_a, "vectors"_a, "gradient"_a, ReleaseGil(),
+          "Add vectors (k, 3), times the weights (k, 4) of their nodes (k, 4) int32, to the rows of gradient (n, 3).");
+    bind_fit_hessian<float>(m);
+    bind_fit_hessian<double>(m);
 }
 
 void bind_sliding_surface(nb::module_ m) {

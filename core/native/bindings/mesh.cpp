@@ -32,12 +32,6 @@ void bind_elements(nb::module_ m) {
     m.def("corner_jacobians", &corner_jacobians, "points"_a, "hexes"_a, "jacobians"_a, ReleaseGil(),
           "Scaled Jacobians of the eight corner tetrahedra of every hex, sigma/(|e1||e2||e3|), -1 where an edge has\n"
           "no length; writes jacobians (m, 8) float64.");
-    m.def("jacobian_gradients", &jacobian_gradients, "points"_a, "corners"_a, "jacobians"_a, "derivatives"_a,
-          ReleaseGil(),
-          "Scaled Jacobians of corners (k, 4) int32, the apex and the ends of its edges each, and their derivatives\n"
-          "by these four points.\n\n"
-          "Writes jacobians (k,), -1 where an edge has no length, and derivatives (k, 12), 0 there. Runs on one\n"
-          "thread.");
 }
 
 void bind_faces(nb::module_ m) {

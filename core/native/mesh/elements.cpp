@@ -115,33 +115,6 @@ void corner_jacobians(Points points, Hexes hexes, ArrayView<double, 8> jacobians
     });
 }
 
-void jacobian_gradients(Points points, ArrayView<const Node, 4> corners, std::span<double> jacobians,
-                        ArrayView<double, 12> derivatives) {
-    expect(jacobians.size() == corners.size() && derivatives.size() == corners.size(),
-           "jacobians and derivatives: a row of each of the corners is expected");
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        auto at = [&](int k) { return vector(points[corners[i][k]]); };
-        V3<double> apex = at(0);
-        M3<double> s{at(1) - apex, at(2) - apex, at(3) - apex};
-        double size = length(s.u) * length(s.v) * length(s.w);
-        auto &out = derivatives[i];
-        if (!(size > 0)) {
-            jacobians[i] = -1, out.fill(0);
-            continue;
-        }
-        double value = jacobians[i] = determinant(s) / size;
-        M3<double> across = cofactors(s);
-        V3<double> total;  // ds/du = (v x w)/(|u||v||w|) - s u/|u|^2, and so on round; of the apex minus their sum
-        const V3<double> *edges[] = {&s.u, &s.v, &s.w}, *areas[] = {&across.u, &across.v, &across.w};
-        for (int k = 0; k < 3; ++k) {
-            V3<double> by_edge = (1 / size) * *areas[k] - (value / square(*edges[k])) * *edges[k];
-            total += by_edge;
-            out[3 * k + 3] = by_edge.x, out[3 * k + 4] = by_edge.y, out[3 * k + 5] = by_edge.z;
-        }
-        out[0] = -total.x, out[1] = -total.y, out[2] = -total.z;
-    }
-}
-
 void lower_to_edges(Points points, Hexes hexes, std::span<double> lengths) {
     expect(lengths.size() == points.size(), "lengths: one for each of points is expected");
     auto lower = [](double &to, double length) {

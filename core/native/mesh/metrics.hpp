@@ -25,11 +25,6 @@ void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma)
 // Scaled Jacobians of the corner tetrahedra, sigma/(|u||v||w|); -1 where an edge has no length.
 void corner_jacobians(Points points, Hexes hexes, ArrayView<double, 8> jacobians);
 
-// Scaled Jacobians (k,) of corners (k, 4), the apex and the ends of its edges each, and their derivatives by these four
-// points, (k, 12); 0 where an edge has no length.
-void jacobian_gradients(Points points, ArrayView<const Node, 4> corners, std::span<double> jacobians,
-                        ArrayView<double, 12> derivatives);
-
 // Mean length of the hexes' edges, each counted once per hex; 0 without hexes.
 double mean_edge_length(Points points, Hexes hexes);
 

@@ -281,16 +281,18 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
     assert not any(one.title == chosen.title for one in advise(after).suggestions)
 
 
-def test_a_mend_cut_short_on_a_detour_is_begun_again():
+def test_a_mend_cut_short_while_its_results_do_not_count_is_begun_again():
     mesh = slid(ball(3), 0.6, seed=0)
-    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=7))
+    result = smooth(
+        mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=94)
+    )
     advice = advise(result)
     assert result.kept < result.iterations
     assert "sliding has not freed these so far." in advice.state
     longer = next(one for one in advice.suggestions if one.title == "Undo, then the same with larger limits")
     assert longer.undo
     assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
-    assert longer.stop == StoppingCriteria(max_iterations=100)
+    assert longer.stop.max_iterations > 94
     after = smooth(mesh, longer.smoother, longer.stop)
     assert after.after.inverted < result.after.inverted
     stopped = iterate(mesh, longer.smoother)

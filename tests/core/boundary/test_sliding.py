@@ -5,7 +5,6 @@ import numpy as np
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.gallery import make
 from tests.core.boundary.solids import ball
-from tests.core.grids import grid
 
 
 def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
@@ -34,18 +33,3 @@ def test_a_mesh_keeps_its_surface_on_request():
     np.testing.assert_array_equal(SlidingBoundary(moved).mesh.points, moved.points)
     places = SlidingBoundary(moved).project(moved.points[SlidingBoundary(moved).nodes])
     np.testing.assert_allclose(np.linalg.norm(places, axis=1), 1, atol=0.2)
-
-
-def test_nodes_that_leave_their_curve_slide_on_all_outer_patches_and_on_no_interface():
-    """Also where a material is one hex thick, so that all nodes of outer faces are on interfaces."""
-    mesh = grid(5)
-    i, j, k = np.floor(mesh.points[mesh.hexes].mean(axis=1)).T
-    one = (i >= 3) | ((j == 2) & (k == 0)) | ((j == 4) & (k == 2))
-    sliding = SlidingBoundary(mesh.replace(hex_sets={"a": np.flatnonzero(one), "b": np.flatnonzero(~one)}))
-    nodes = np.flatnonzero((sliding.node_class == NodeClass.CURVE) & ~sliding.confined)
-    assert (mesh.points[nodes] == [4, 5, 0]).all(axis=1).any()
-    onto = sliding.with_nodes_on_patches(nodes)
-    x = mesh.points[nodes]
-    np.testing.assert_allclose(onto.project(x, nodes), x, atol=1e-12)
-    moved = onto.project(x + 0.3 * (2.5 - x), nodes)
-    assert ((np.abs(moved) < 1e-12) | (np.abs(moved - 5) < 1e-12)).any(axis=1).all()

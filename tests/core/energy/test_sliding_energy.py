@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.energy import ObjectiveNorm, SlidingEnergy
 from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.energy.ranks import Ranks
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
@@ -105,25 +104,3 @@ def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_s
             assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
             np.testing.assert_array_equal(of.with_barriers(x, delta), each)
     assert len(set(values)) == len(values) // 2
-
-
-def test_a_rank_without_sliding_nodes_takes_part_in_the_exchange_of_projectors():
-    """Else what other ranks send it then arrives where it expects something else."""
-
-    class TwoRanks(Ranks):
-        def any(self, values):
-            return True
-
-    class OnTwoRanks(SlidingEnergy):
-        ranks, exchanges = TwoRanks(), 0
-
-        def _with_ghosts(self, projectors):
-            self.exchanges += 1
-            return projectors
-
-    sliding = SlidingBoundary(grid(3)).at_rest()
-    energy = OnTwoRanks(sliding)
-    x = energy.to_edge_units(sliding.mesh.points)
-    assert not energy.sliding_nodes.size
-    np.testing.assert_array_equal(energy.gradient(x), SlidingEnergy(sliding).gradient(x))
-    assert energy.exchanges == 1

@@ -80,7 +80,7 @@ def test_a_boundary_that_slides_on_planes_reaches_the_lattice(tmp_path):
 @needs_mpi
 @pytest.mark.slow
 def test_a_curved_boundary_slides_as_in_one_process(tangled, tmp_path):
-    reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "balanced", 5e-3, "--boundary", "slide")
+    reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "balanced", 0.05, "--boundary", "slide")
 
 
 def write_surface(path, mesh):

@@ -103,6 +103,16 @@ class SlidingBoundary(SlidingNodes):
         self.releasable &= ~(stays | self.confined)
 
     @property
+    def surface_is_own(self) -> bool:
+        """True if the surface is that of the boundary itself, which lies on it node by node."""
+        return self._given is None
+
+    @property
+    def start(self) -> np.ndarray:
+        """Positions of all nodes before sliding, (n, 3), those of the boundary on the surface."""
+        return self._start
+
+    @property
     def leavable(self) -> np.ndarray:
         """Nodes of the boundary that may leave the surface where it holds the hexes down, (n,) bool."""
         leavable = self.releasable & self.mesh.fixed
@@ -128,45 +138,6 @@ class SlidingBoundary(SlidingNodes):
         other._number = index_of(other.nodes, self.mesh.n_nodes)
         other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
         return other
-
-    def at_rest(self) -> SlidingBoundary:
-        """Return the boundary with all sliding nodes fixed where they are: those that are free already are free."""
-        other, slides = copy.copy(self), mask(self.nodes, self.mesh.n_nodes)
-        for name in _OF_SLIDING_NODES:
-            vars(other).pop(name, None)
-        other.nodes, other._group = self.nodes[:0], self._group[:0]
-        other._cache = ClosestPointCache(self.surface.trees, other._group)
-        other._number = index_of(other.nodes, self.mesh.n_nodes)
-        other.mesh = self.mesh.with_fixed(self.mesh.fixed | slides)
-        return other
-
-    def with_nodes_on_patches(self, nodes: np.ndarray) -> SlidingBoundary:
-        """Return the sliding boundary with nodes (k,) of curves on all its patches but those of interfaces."""
-        other = copy.copy(self)
-        for name in _OF_SLIDING_NODES:
-            vars(other).pop(name, None)
-        other.surface, at = self._surface_with_union, self._number[nodes]
-        other.node_class, other._group = self.node_class.copy(), self._group.copy()
-        other.node_class[nodes], other._group[at] = NodeClass.PATCH, self._union
-        other._cache = ClosestPointCache(other.surface.trees, other._group)
-        return other
-
-    @property
-    def _union(self) -> int:
-        """Number of the group of all patches in a surface that has it."""
-        return self.surface.n_patches + self.surface.n_curves
-
-    @cached_property
-    def _surface_with_union(self) -> PartitionedSurface:
-        surface = self.surface
-        if surface.trees.roots.size > self._union:
-            return surface
-        # a target has no interfaces
-        return surface.with_union(~self._of_interfaces if self._given is None else np.ones(surface.n_patches, bool))
-
-    def on_several_patches(self, nodes: np.ndarray) -> np.ndarray:
-        """Mark those of some sliding nodes (k,) that slide on all patches, (k,) bool."""
-        return self._group[self._number[nodes]] == self._union
 
     @cached_property
     def curved_nodes(self) -> np.ndarray:

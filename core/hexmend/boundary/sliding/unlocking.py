@@ -1,4 +1,4 @@
-"""Locked hexes that sliding of the boundary can free, and hexes that stay inverted."""
+"""Locked hexes that sliding of the boundary can free."""
 
 from __future__ import annotations
 
@@ -33,26 +33,12 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: FeatureAngle
     """
     freed, where = locked.copy(), np.flatnonzero(locked)
     if where.size:
-        freed[where] = ~stays_inverted(SlidingBoundary(mesh, feature_angle), mesh.points, where)
+        freed[where] = ~_stays_inverted(SlidingBoundary(mesh, feature_angle), mesh.points, where)
     return freed
 
 
-def stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Find hexes with a corner that stays inverted wherever nodes slide; see `freed_by_sliding`.
-
-    Parameters
-    ----------
-    sliding : SlidingBoundary
-        On its own surface, not on a target: which parts are flat is seen from the nodes where it began.
-    points : (n, 3) float64
-        Node positions on that surface.
-    hexes : (k,) int64
-        Numbers of hexes.
-
-    Returns
-    -------
-    (k,) bool
-    """
+def _stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Find those of some hexes (k,) at points (n, 3) that have a corner which stays inverted wherever nodes slide."""
     mesh = sliding.mesh
     tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
     blocked = mesh.fixed[tetrahedra].all(axis=2)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -46,6 +47,8 @@ class SurfaceTerm:
     blocks: ElementBlocks
     has_lengths: bool = False
 
+    limits_moves = False
+
     @property
     def total_weight(self) -> float:
         """Sum of the weights of the quads: the term has so many times the value of a hex if all of them are squares."""
@@ -56,6 +59,13 @@ class SurfaceTerm:
         with np.errstate(over="ignore"):
             energy = np.maximum(self.corners(x).energies(norm.offset), 0.0)
             return self.weight * float(np.power(energy, norm.p).sum())
+
+    def beyond(self, x: np.ndarray, there: np.ndarray) -> None:
+        """Return None: it limits no moves; see `hexmend.energy.terms.Term`."""
+
+    def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Self:
+        """Raise `NotImplementedError`: it is made for what moves."""
+        raise NotImplementedError
 
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute the gradient by all nodes, (n, 3); see `value`."""

@@ -1,1 +1,1 @@
-"""Raising the minimum scaled Jacobian and the least q(H) along a central path, and an optimum above such floors."""
+"""Floors of the scaled Jacobians, of q(H) and of heights, with the highest one as an eliminated unknown."""

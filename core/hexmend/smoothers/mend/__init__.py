@@ -1,1 +1,1 @@
-"""Mend, the default method: untangling, shape optimum, max-min of the scaled Jacobian, return to the surface."""
+"""Mend, the default method: untangling, the optimum of shape, floors that rise, a boundary free within a tolerance."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
+from hexmend.energy.terms import Term, Terms
 from hexmend.energy.validity_barrier import ValidityBarrier
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
@@ -54,7 +55,7 @@ CERTIFICATION = CertificationConfig()
 
 
 def certify_hexes(
-    energy: MeshEnergy, points: np.ndarray, config: CertificationConfig = CERTIFICATION
+    energies: Iterable[MeshEnergy], points: np.ndarray, config: CertificationConfig = CERTIFICATION
 ) -> Generator[Step, None, np.ndarray]:
     """Make hexes valid that are invalid between positive corners.
 
@@ -63,8 +64,9 @@ def certify_hexes(
 
     Parameters
     ----------
-    energy : MeshEnergy
-        Of one rank; corners that are inverted at `points` are omitted.
+    energies : iterable of MeshEnergy
+        Of one rank, for one share of the least values after the other; corners that are inverted at `points` are
+        omitted.
     points : (n, 3) float64
     config : CertificationConfig
 
@@ -78,7 +80,7 @@ def certify_hexes(
         Points with fewer invalid hexes, or `points`.
     """
     best, reached = points, points
-    for share in config.kept_shares:
+    for share, energy in zip(config.kept_shares, energies, strict=False):
         if not curable_hexes(energy.mesh, measure(best, energy.mesh.hexes)).any():
             break
         best, reached = yield from _Certification(energy, reached, best, share, config).steps()
@@ -146,7 +148,7 @@ class _Certification:
         validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)
         direction, gap, history = NEWTON.direction(), config.gap, [validity.deficit]
         for number in range(1, most + 1):
-            step = descend(part.with_surface(validity), y, 0.0, direction, SEARCH, NEWTON.max_step)
+            step = descend(_with_term(part, validity), y, 0.0, direction, SEARCH, NEWTON.max_step)
             if step is None or step.alpha == 0:
                 return most, none
             y, validity = step.x, validity.with_higher_floors(step.x, gap)
@@ -180,3 +182,8 @@ class _Certification:
             self._best, self._fewest = points, quality.n_invalid
         self._points = points
         return Step(points, {"deficit": validity.deficit}, intermediate=True, quality=quality)
+
+
+def _with_term(energy: MeshEnergy, term: Term) -> MeshEnergy:
+    """Return an energy with one more term."""
+    return energy.with_surface(term if energy.surface is None else Terms(energy.surface, term))

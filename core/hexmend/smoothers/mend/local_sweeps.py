@@ -57,7 +57,7 @@ def local_sweeps(
     linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
     settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH, energy.target)
     constrained = None
-    if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
+    if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.limits_moves:
         constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)
     swept = x.copy()
     sweep = energy.sweep(swept, near & mesh.free & mesh.interior & ~linear)

@@ -12,12 +12,9 @@ from hexmend.quality import ElementQuality
 from hexmend.quality.corner_heights import least_heights
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps, method, objective_of_sound
-from hexmend.smoothers.mend.balance import BALANCE
+from hexmend.smoothers.mend.goals import TARGET_FALL, counted_steps
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.stages import Stages
-
-#: Digits of the minimum scaled Jacobian that count in the choice of the best iterate; linear programs leave the others.
-_LEAST_DIGITS = 5
 
 
 @method
@@ -46,7 +43,7 @@ class Mend(MendSettings):
         First comes whether the minimum scaled Jacobian is lower than at the start while hexes are inverted, then
         whether more hexes are invalid than there, then the numbers of inverted and of invalid ones, then whether a
         guarded figure is lower than at the start, then whether the objective of the sound hexes, with the highest p
-        that was asked for, is higher. With a target a fall counts from `BalanceConfig.target_fall` on: as given, a mesh
+        that was asked for, is higher. With a target a fall counts from `TARGET_FALL` on: as given, a mesh
         may have better corners than hexes of the lengths that are asked for. The goal balanced guards the figures of
         all hexes but those that are inverted at the start and still are.
 
@@ -68,14 +65,14 @@ class Mend(MendSettings):
         counts = fell, invalid > ranks.sum(start.n_invalid), inverted, invalid
         if self.balances:
             return *counts, self._lowers(ranks, start, now)
-        share = 1 - BALANCE.target_fall if now.against_target and not self.guard else 1.0
+        share = 1 - TARGET_FALL if now.against_target and not self.guard else 1.0
         fallen = (
             ranks.least(_least(now.q)) < share * ranks.least(_least(start.q)),
             after < share * before,
         )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
-            return *counts, harmed, -round(after, _LEAST_DIGITS)
+            return *counts, harmed or after < share * before - WORSE_BY, counted_steps(after)
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
             return *counts, harmed if self.guard else False
         objectives = [ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now)]
@@ -83,7 +80,7 @@ class Mend(MendSettings):
 
     def _lowers(self, ranks: Ranks, start: ElementQuality, now: ElementQuality) -> bool:
         """Return True if q min, the minimum scaled Jacobian or, of a sound mesh, q mean is lower than at the start."""
-        share = 1 - BALANCE.target_fall if now.against_target else 1.0
+        share = 1 - TARGET_FALL if now.against_target else 1.0
         judged = ~(start.inverted & now.inverted)
         count = ranks.sum(int(np.count_nonzero(judged)))
         if not count:

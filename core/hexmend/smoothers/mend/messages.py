@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.energy import MeshEnergy
+from hexmend.iteration import ActiveSet
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
-from hexmend.optimise.maxmin.slp_step import ActiveCorners
-from hexmend.quality import ElementQuality
+from hexmend.mesh.topology.components import components_of_cells
+from hexmend.quality import ElementQuality, measure
 from hexmend.quality.file_ids import hex_ids, with_ids
-from hexmend.smoothers.mend.maxmin import locked_below
+from hexmend.smoothers.mend.floors import Floors, Values
 from hexmend.terminal_text import count_phrase
+
+#: Fall of the mean of q(H) from which on a message speaks of it.
+_COSTS = 1e-3
 
 
 def omission_message(by_fixed: int, others: int) -> str:
@@ -60,31 +64,54 @@ def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
     return f"{had}: sliding freed {count - left:,}, {rest}."
 
 
-def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
-    """Tell which corners limit the least of the measure, and which are locked below it; "" where none limits it.
+def limit_message(mesh: Mesh, active: ActiveSet, least: float, title: str) -> str:
+    """Tell which corners limit the least of a measure, and which are locked below it; "" where none limits it.
 
     Corners of several places reach the limit together, but hold each other within their own place alone.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    active : ActiveSet
+    least : float
+    title : str
+        Name of the measure.
     """
-    count = len(active.hexes)
+    hexes, count = active.hexes, len(active.hexes)
     if not count:
         return ""
-    places = optimiser.corners.groups(8 * active.hexes + active.corners).max() + 1
+    places = np.unique(components_of_cells(mesh.n_nodes, mesh.hexes[np.unique(hexes)])).size
     if count == 1:
         subject = "it cannot be raised further, in hex"
     elif places == 1:
         subject = f"{count} of them limit each other there, in the hexes"
     else:
         subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
-    measure = optimiser.corners.measure
-    least = f"The minimum {measure.title} of the corners that can be moved is {measure.text(active.least)}"
-    sentence = f"{least}: {subject} {_first_hexes(optimiser.mesh, active.hexes)}."
-    locked = locked_below(optimiser, active)
+    sentence = (
+        f"The minimum {title} of the corners that can be moved is {least:.4g}: {subject} {_first_hexes(mesh, hexes)}."
+    )
+    locked = active.locked
     if not locked.size:
         return sentence
-    which = "One corner is" if locked.size == 1 else f"{locked.size:,} corners are"
-    lowest = optimiser.corners.values.ravel()[locked[0]]
-    where = _first_hexes(optimiser.mesh, locked[:1] // 8)
-    return f"{sentence} {which} locked below that: {measure.text(lowest)} at the lowest, in hex {where}."
+    which = "One hex has a corner" if locked.size == 1 else f"{locked.size:,} hexes have corners"
+    return f"{sentence} {which} that fixed nodes lock below that, the lowest in hex {_first_hexes(mesh, locked[:1])}."
+
+
+def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.ndarray) -> str:
+    """Say what was reached, which floors hold, and what they cost of q mean at the optimum of shape (n, 3)."""
+    hexes = energy.mesh.hexes
+    kept, quality = floors.values, measure(floors.points, hexes)
+    mean, without = energy.mean(quality.q), energy.mean(measure(shape, hexes).q)
+    fixed = energy.ranks.least(float(quality.scaled_jacobian.min()))
+    message = (
+        f"The minimum scaled Jacobian of the corners that can be moved reached {max(top.jacobian, kept.jacobian):.4f}; "
+        f"it is kept at {kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
+    )
+    if 0 < fixed < kept.jacobian - 5e-5:
+        message += f" A corner that cannot be moved has {fixed:.4f}."
+    if without - mean < _COSTS:
+        return message
+    return f"{message} Both together cost {without - mean:.4f} of q mean, which would be {without:.4f} without."
 
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:

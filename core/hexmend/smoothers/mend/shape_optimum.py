@@ -129,7 +129,7 @@ def _minimise(
         if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate)):
             break
         values.append(descent.value - energy.cube_value)
-        judged = energy.faceted and len(values) > config.window
+        judged = (energy.faceted or energy.limits_moves) and len(values) > config.window
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
         diagnostics, full_step = descent.diagnostics(0.0) | {"p": energy.norm.p}, descent.backtracks == 0

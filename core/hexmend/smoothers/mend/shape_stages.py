@@ -2,47 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator
 from dataclasses import replace
-from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.sliding.unlocking import stays_inverted
 from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.iteration import Outcome, Step
+from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
 from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
-from hexmend.smoothers.mend.surface.starts import while_promising
 from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
-
-
-class SlidingStarts(NamedTuple):
-    """Starts of a boundary that slides.
-
-    Parameters
-    ----------
-    points : list of (n, 3) float64
-        With the boundary fixed, and on the surface.
-    shape : ShapeOptimum or None
-        The last of them; None if its least is lower than at the others, or it was not computed.
-    passed_over : bool
-        True if it was not computed, because nodes have to leave the surface anyway.
-    """
-
-    points: list[np.ndarray]
-    shape: ShapeOptimum | None
-    passed_over: bool = False
 
 
 class ShapeStages:
@@ -60,9 +35,9 @@ class ShapeStages:
         self.settings, self.goal = settings, settings.goal
         self._nested = nested
 
-    def _energy(self, mesh: Mesh, norm: ObjectiveNorm, sliding: SlidingBoundary | None = None) -> MeshEnergy:
-        """The energy of a mesh, whose boundary is fixed or slides."""
-        return energy_of(mesh, norm, sliding)
+    def _energy(self, mesh: Mesh, norm: ObjectiveNorm) -> MeshEnergy:
+        """The energy of a mesh whose boundary is fixed."""
+        return energy_of(mesh, norm)
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape; where it is a refinement, from that of the coarse mesh."""
@@ -81,8 +56,6 @@ class ShapeStages:
         if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
             decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
-        if energy.faceted and self.settings.maximises_jacobian and untangled.left(locked, energy):
-            return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)  # the stages that follow free nodes, or raise corners
         energy = energy.with_objective(energy.norm, omitted)
         newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
         config = ShapeOptimumConfig(newton=newton, short_steps=self._nested.short_steps if is_nested else 0)
@@ -104,54 +77,17 @@ class ShapeStages:
         config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))
         return (yield from untangle(mesh, energy.without_size(), locked, config))
 
-    def _untangled(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, np.ndarray]:
-        """Untangle a mesh whose boundary slides, from points (n, 3) on."""
-        mesh = sliding.mesh.with_points(points)
-        locked = locked_corners(mesh, measure(points, mesh.hexes))
-        energy = self._energy(mesh, self.settings.first_norm_on(mesh), sliding)
-        energy = energy.with_objective(self.settings.norm, locked)
-        return (yield from self._untangle(mesh, energy, locked)).points
+    def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
+        """Go from points (n, 3) on to the optimum of shape, without the corners that are inverted there."""
+        inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
+        energy = energy.with_objective(energy.norm, inverted)
+        config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
+        return (yield from optimise_shape(energy, points, self.settings.p_limit, True, config))
 
-    def _sound_energy(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None) -> MeshEnergy:
-        """The energy that floors are added to, without the corners that are inverted at these points."""
-        inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+    def _sound(self, energy: MeshEnergy, points: np.ndarray) -> MeshEnergy:
+        """Return an energy that floors are added to, without the corners that are inverted at points (n, 3)."""
+        inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         mean = ObjectiveNorm(1.0, self.settings.offset)
-        energy = self._energy(mesh, self.settings.first_norm_on(mesh) if self.settings.balances else mean, sliding)
-        return energy.with_objective(energy.norm, inverted)
-
-    def _sliding_shape(self, sliding: SlidingBoundary, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
-        """Untangle a mesh whose boundary slides, from points (n, 3) on, then go to the optimum of shape."""
-        energy = self._energy(sliding.mesh, self.settings.first_norm_on(sliding.mesh), sliding)
-        return (yield from self._shape(sliding.mesh.with_points(points), energy, True))
-
-    def _start_at_shape(
-        self, sliding: SlidingBoundary, points: np.ndarray, others: Sequence[np.ndarray]
-    ) -> Generator[Step, None, ShapeOptimum | None]:
-        """Go to the optimum of shape from points (n, 3) on; None where its least is lower than at another start."""
-        steps = self._sliding_shape(sliding, points)
-        return (yield from while_promising(steps, sliding.mesh, others, MAXMIN.shape_patience))
-
-    def start_sliding(
-        self, sliding: SlidingBoundary, candidates: Sequence[np.ndarray], is_untangled: bool
-    ) -> Generator[Step, None, SlidingStarts]:
-        """Slide from the last of some points (n, 3): by linear programs, then to the optimum of shape.
-
-        `is_untangled` says that no hex is inverted with the boundary fixed.
-        """
-        optimiser = MaxMinOptimiser(sliding.mesh, candidates[-1], sliding)
-        steps = maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
-        yield from islice(steps, MAXMIN.untangling_iterations)
-        candidates = [*candidates, optimiser.points]
-        if self.settings.maximises_jacobian and not is_untangled and self._has_to_leave(sliding, optimiser.points):
-            return SlidingStarts(candidates, None, passed_over=True)
-        others = candidates if is_untangled and self.settings.maximises_jacobian else []
-        shape = yield from self._start_at_shape(sliding, candidates[-1], others)
-        return SlidingStarts(candidates if shape is None else [*candidates, shape.points], shape)
-
-    def _has_to_leave(self, sliding: SlidingBoundary, points: np.ndarray) -> bool:
-        """Return True if hexes stay inverted unless nodes leave the surface, and nodes of each of them may."""
-        if sliding.mesh.target is not None or not self.settings.absolute_tolerance(sliding.mesh) > 0:
-            return False
-        hexes = np.flatnonzero(measure(points, sliding.mesh.hexes).inverted)
-        stuck = sliding.mesh.hexes[hexes[stays_inverted(sliding, points, hexes)]]
-        return len(stuck) > 0 and bool(sliding.leavable[stuck].any(axis=1).all())
+        return energy.with_objective(
+            self.settings.first_norm_on(energy.mesh) if self.settings.balances else mean, inverted
+        )

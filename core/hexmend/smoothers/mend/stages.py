@@ -1,32 +1,36 @@
-"""Stages of mend, one after another: untangling, the optimum of shape, sliding, and what its goal asks for."""
+"""Stages of mend, one after another: untangling, the optimum of shape, the goal, sliding, and the certificate."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
+from itertools import repeat
+from typing import TypeVar
 
 import numpy as np
 
 from hexmend.arrays import mask
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import MeshEnergy, energy_of
+from hexmend.energy.hex_energy import unpack_corners
 from hexmend.iteration import Outcome, Step
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.slp_config import SLP
+from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
-from hexmend.smoothers.mend.balance import balance
 from hexmend.smoothers.mend.certification import certify_hexes, curable_hexes
+from hexmend.smoothers.mend.free_boundary import RETURN, FreeBoundary, tolerances_of
+from hexmend.smoothers.mend.goals import STEP_OF_LEAST, Reached, reach_goal
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin import active_set
-from hexmend.smoothers.mend.messages import certified_message, freed_message, limit_message
-from hexmend.smoothers.mend.surface.detours import MaxMinResult
-from hexmend.smoothers.mend.surface.leaving_surface import LeavingSurface
-from hexmend.smoothers.mend.surface.maxmin_stages import MaxMinStages
-from hexmend.smoothers.mend.surface.release import T, infeasible
-from hexmend.smoothers.mend.time_step import maximise_time_step
+from hexmend.smoothers.mend.messages import certified_message, freed_message
+from hexmend.smoothers.mend.shape_stages import ShapeStages
+
+T = TypeVar("T")
 
 
-class Stages(MaxMinStages):
+class Stages(ShapeStages):
     """Stages of a run of mend."""
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -35,119 +39,106 @@ class Stages(MaxMinStages):
         yield Step(mesh.points)
         slides = self.settings.slides_on(mesh)
         intermediate = slides or self.goal != "shape"
-        given, locked_at_start = mesh.points, locked_corners(mesh, measure(mesh.points, mesh.hexes))
+        locked_at_start = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
-            given = mesh.points
-            yield Step(given, intermediate=True, quality=measure(given, mesh.hexes), begins=True)
+            yield Step(mesh.points, intermediate=True, quality=measure(mesh.points, mesh.hexes), begins=True)
         energy = self._energy(mesh, self.settings.first_norm_on(mesh))
         steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         del energy  # large meshes have no memory for what is no longer needed
         shape = yield from steps if intermediate else until_valid(steps, mesh)
+        energy = self._sound(self._energy(mesh, self.settings.first_norm_on(mesh)), shape.points)
         if not intermediate:
-            yield from self._certify(mesh, shape.points, None, None)
+            yield from certify_hexes(repeat(energy), shape.points)
             return shape.outcome
-        sliding = None
-        kept = None  # quality of the result with the boundary fixed, which is that of the run until sliding is better
-        at_rest = [mesh.points, shape.points]  # with the boundary fixed
+        starts = [mesh.points, shape.points]
+        given = measure(mesh.points, mesh.hexes)
+        mean = -np.inf if given.n_inverted else energy.mean(given.q)
+        del given
+        reached = yield from reach_goal(self.settings, energy, starts, mesh.points, mean)
+        moved, energies = reached.points is not shape.points, repeat(energy)
         if slides:
-            fixed, given, kept = yield from self._raise_fixed(mesh, at_rest, given)
-            sliding = self.sliding_boundary(mesh)
-            mesh = sliding.mesh
-            starts = yield from keeping(kept, mesh.hexes, self.start_sliding(sliding, at_rest, fixed is not None))
-            shape, candidates = starts.shape or shape, starts.points
-            leaving, result = yield from self._raise_within_tolerances(sliding, at_rest, starts, fixed)
-        else:
-            candidates, leaving = at_rest, None
-            result = yield from self._maxmin_stage(mesh, candidates, None)
-        if self.settings.maximises_jacobian and result.least > 0:
-            result = yield from self._improve_shape(mesh, leaving, result)
-        if self.goal == "time-step":
-            result = yield from maximise_time_step(mesh, candidates, sliding, result)
-        points = shape.points if result is None else result.optimiser.points
-        outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
-        active, sentences, quality = None, [], None
-        if self.settings.balances:
-            points, message = yield from self._balance(mesh, points, given, leaving, result, kept)
-            sentences.append(message)
-        if self.settings.maximises_minimum:
-            active = active_set(result.optimiser, result.active)
-            sentences.append(limit_message(result.optimiser, result.active))
-        certified = yield from self._certify(mesh, points, leaving, result)
-        if certified is not points:
-            sentences.append(certified_message(measure(points, mesh.hexes), measure(certified, mesh.hexes)))
-            points = certified
+            energies, reached = yield from self._slide(mesh, reached, mean)
+        certified = yield from certify_hexes(energies, reached.points)
+        if reached.boundary is not None and certified is not reached.points:
+            exact = reached.boundary.exact(certified)
+            is_valid = measure(exact, mesh.hexes).n_invalid <= measure(certified, mesh.hexes).n_invalid
+            certified = exact if is_valid else reached.points
+        sentences, quality = [reached.message], None
+        if certified is not reached.points:
+            sentences.append(certified_message(measure(reached.points, mesh.hexes), measure(certified, mesh.hexes)))
         if slides:
-            quality = measure(points, mesh.hexes)
-            sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
+            quality = measure(certified, mesh.hexes)
+            sentences.append(freed_message(locked_at_start, inverted_corners(certified, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
-        if decision or kept is not None or outcome is Outcome.NO_IMPROVEMENT:
-            yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
-        return outcome
+        if decision or moved:
+            yield Step(certified, decision=decision, intermediate=True, quality=quality, active=reached.active)
+        return Outcome.NO_IMPROVEMENT if moved else shape.outcome
 
-    def _raise_fixed(
-        self, mesh: Mesh, candidates: Sequence[np.ndarray], given: np.ndarray
-    ) -> Generator[Step, None, tuple[MaxMinResult | None, np.ndarray, ElementQuality | None]]:
-        """Raise with the boundary fixed, from the last of some points (n, 3), what sliding is to end no lower than.
+    def sliding_boundary(self, mesh: Mesh) -> SlidingBoundary:
+        """The boundary that slides; a tolerance in numbers says how far its sets too may move."""
+        settings = self.settings
+        holds = settings.surface_tolerance == AUTO
+        return SlidingBoundary(
+            mesh, settings.feature_angle, settings.absolute_tolerance(mesh), settings.slides, sets_hold=holds
+        )
 
-        Returns the result of raising the minimum scaled Jacobian, the points whose figures the result is not to lower,
-        `given` unless the goal is balanced, and their quality then.
+    def _slide(
+        self, mesh: Mesh, fixed: Reached, mean: float
+    ) -> Generator[Step, None, tuple[Iterator[MeshEnergy], Reached]]:
+        """Move the boundary within its tolerance of the surface, from the result with the boundary fixed on.
+
+        Returns energies of the boundary, with wider tolerances where none is given, and the result: that with the
+        boundary fixed where hexes are not untangled within a tolerance that was given.
         """
-        optimum = candidates[-1]
-        if measure(optimum, mesh.hexes).n_inverted:
-            return None, given, None
-        fixed = yield from self._maxmin_stage(mesh, candidates, None)
-        if not self.settings.balances:
-            return fixed, given, None
-        balanced = yield from balance(self._sound_energy(mesh, optimum, None), optimum, given)
-        return fixed, balanced.points, measure(balanced.points, mesh.hexes)
+        settings, hexes, points = self.settings, mesh.hexes, fixed.points
+        quality = measure(points, hexes)
+        mesh = _holding_overlaps(mesh, points, quality)
+        sliding = self.sliding_boundary(mesh)
+        tolerances = tolerances_of(settings.surface_tolerance, settings.absolute_tolerance(mesh), mesh)
+        free = FreeBoundary(sliding, quality.inverted, tolerances, settings.first_norm_on(mesh))
+        is_sound, given = not quality.n_inverted, mesh.points if quality.n_inverted else points
+        kept = quality if is_sound and (settings.balances or settings.maximises_jacobian) else None
+        is_lower = _is_lower if settings.balances else _has_lower_jacobian
+        wider = settings.surface_tolerance == AUTO
+        if not is_sound:
+            locked = locked_corners(free.mesh, quality)
+            points, is_within = yield from free.untangle(points, locked, wider)
+            if not is_within:
+                return repeat(self._sound(free.fitted, points)), fixed._replace(points=points)
+            free = free.allowing(points, everywhere=wider)
+        starts, energy = [points], free.fitted
+        if is_sound:  # the shape improves faster along the surface itself
+            width = max(tolerances.patches, 1e-9) * mesh.mean_edge_length
+            energy = energy_of(sliding.mesh, settings.first_norm_on(mesh), sliding.with_band(width))
+        if not (is_sound and settings.maximises_jacobian):
+            shape = yield from keeping(kept, hexes, self._optimum(energy, points), is_lower)
+            starts.append(shape.points)
+        free = free.allowing(starts[-1], everywhere=True)
+        energy = self._sound(free.fitted, starts[-1])
+        reached = yield from keeping(kept, hexes, reach_goal(settings, energy, starts, given, mean, free), is_lower)
+        free = reached.boundary or free
+        snapped = free.snapped(reached.points, 1 - STEP_OF_LEAST)
+        yield from keeping(kept, hexes, _one(Step(snapped, intermediate=True)), is_lower)
+        free = free.allowing(snapped, everywhere=True)
+        fitted = (free.widened(factor).fitted for factor in (RETURN.wider if wider else repeat(1.0)))
+        return (self._sound(each, snapped) for each in fitted), reached._replace(points=snapped, boundary=free)
 
-    def _balance(
-        self,
-        mesh: Mesh,
-        points: np.ndarray,
-        given: np.ndarray,
-        leaving: LeavingSurface | None,
-        result: MaxMinResult | None,
-        kept: ElementQuality | None,
-    ) -> Generator[Step, None, tuple[np.ndarray, str]]:
-        """Raise the floors from points (n, 3) on; points whose figures are not to fall, and the quality that is kept.
 
-        Returns the points, and a sentence about the floors.
-        """
-        around, begin = None if leaving is None else leaving.boundary(result), None if kept is None else given
-        energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
-        steps = balance(energy, points, given, begin=begin)
-        if leaving is None or result is None:
-            balanced = yield from keeping(kept, mesh.hexes, steps)
-            return balanced.points, balanced.message
-        balanced = yield from infeasible(steps, every=1)  # steps with released nodes may leave their band
-        returned = yield from infeasible(leaving.returned(result, balanced.points))
-        return returned.points, balanced.message
+def _holding_overlaps(mesh: Mesh, points: np.ndarray, quality: ElementQuality) -> Mesh:
+    """Return the mesh at points (n, 3) with the nodes fixed of inverted corners that are so wherever they are."""
+    overlapping = np.zeros(mesh.n_hexes, dtype=bool)
+    overlapping[mesh.topology.overlapping_corners.items // 8] = True
+    hopeless = quality.inverted & overlapping & ~curable_hexes(mesh, quality)
+    corners = unpack_corners(inverted_corners(points, mesh.hexes, quality))[hopeless]
+    if not corners.any():
+        return mesh
+    fixed = mesh.fixed | mask(mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners], mesh.n_nodes)
+    return mesh.keeping_surface().with_points(points).with_fixed(fixed)
 
-    def _certify(
-        self, mesh: Mesh, points: np.ndarray, leaving: LeavingSurface | None, result: MaxMinResult | None
-    ) -> Generator[Step, None, np.ndarray]:
-        """Make hexes valid that are invalid between positive corners, from points (n, 3) on.
 
-        Where the boundary holds them, its nodes at these hexes leave the surface within the tolerance.
-        """
-        around = None if leaving is None else leaving.boundary(result)
-        energy = self._sound_energy(mesh if around is None else around.mesh, points, around)
-        points = yield from certify_hexes(energy, points)
-        if leaving is None:
-            return points
-        left = curable_hexes(around.mesh, measure(points, mesh.hexes))
-        for wider, limit in leaving.released(result, mask(mesh.hexes[left], mesh.n_nodes)):
-            energy = self._sound_energy(wider.mesh, points, wider)
-            found = yield from infeasible(certify_hexes(energy, points), every=1)
-            fewer = measure(found, mesh.hexes).n_invalid < measure(points, mesh.hexes).n_invalid
-            if fewer and leaving.deviation(found) <= limit * (1 + SLP.band_excess):
-                points = found
-                yield Step(points, intermediate=True)
-            if not curable_hexes(around.mesh, measure(points, mesh.hexes)).any():
-                break
-        return points
+def _one(step: Step) -> Generator[Step, None, None]:
+    yield step
 
 
 def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, None, T]:
@@ -166,6 +157,11 @@ def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:
     """Return True if a hex is inverted, or one of the least values is lower."""
     pairs = (now.q, kept.q), (now.scaled_jacobian, kept.scaled_jacobian)
     return now.n_inverted > 0 or any(new.min() < old.min() - WORSE_BY for new, old in pairs)
+
+
+def _has_lower_jacobian(now: ElementQuality, kept: ElementQuality) -> bool:
+    """Return True if a hex is inverted, or the minimum scaled Jacobian is lower."""
+    return now.n_inverted > 0 or now.scaled_jacobian.min() < kept.scaled_jacobian.min()
 
 
 def keeping(

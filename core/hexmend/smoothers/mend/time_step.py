@@ -1,56 +1,40 @@
-"""Last stage of mend with the goal time-step: the smallest explicit time step is raised."""
+"""Stage of mend with the goal time-step: the smallest explicit time step is raised, at wave speed 1 a height."""
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator
+from functools import partial
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
-from hexmend.iteration import Step
-from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.corner_measure import time_step_measure
-from hexmend.optimise.maxmin.slp import MaxMinOptimiser
-from hexmend.smoothers.mend.maxmin import maximise_minimum
-from hexmend.smoothers.mend.surface.detours import MaxMinResult
+from hexmend.energy import MeshEnergy
+from hexmend.iteration import ActiveSet, Step
+from hexmend.optimise.floors.movable_hexes import MovableHeights
+from hexmend.smoothers.mend.floors import Floors
 
-#: Factor of the rise from which on the stage begins again with a larger unit: its thresholds suit values near 1.
-_NEW_UNIT = 2.0
+#: Factor of the rise from which on the stage begins again with a larger unit, and how often at most.
+_NEW_UNIT, _UNITS = 2.0, 20
 
 
-def maximise_time_step(
-    mesh: Mesh, candidates: Sequence[np.ndarray], sliding: SlidingBoundary | None, untangled: MaxMinResult | None
-) -> Generator[Step, None, MaxMinResult]:
-    """Raise the least time step of the corners that can be moved: the least height over the faces, at wave speed 1.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    candidates : sequence of (n, 3) float64
-        Points of which the best are the start.
-    sliding : SlidingBoundary or None
-        None where the boundary is fixed.
-    untangled : MaxMinResult or None
-        Where the minimum scaled Jacobian of all candidates was too low, the result of raising it: then the start.
-
-    Yields
-    ------
-    Step
+def raise_time_step(
+    energy: MeshEnergy, points: np.ndarray
+) -> Generator[Step, None, tuple[np.ndarray, float, ActiveSet]]:
+    """Raise the least height of the corners that can be moved from points (n, 3) on.
 
     Returns
     -------
-    MaxMinResult
+    points : (n, 3) float64
+    least : float
+        The time step, in the unit of the mesh.
+    active : ActiveSet
     """
-    measure = time_step_measure(1.0)
-    if untangled is not None:
-        optimiser = untangled.optimiser.measured_by(measure)
-    else:
-        optimisers = [MaxMinOptimiser(mesh, points, sliding, measure=measure) for points in candidates]
-        optimiser = max(optimisers, key=lambda one: one.corners.active_minimum)
-    while True:
-        least = optimiser.least
-        unit = least if 0 < least < np.inf else mesh.mean_edge_length or 1.0
-        optimiser = optimiser.measured_by(time_step_measure(unit))
-        active = yield from maximise_minimum(optimiser)
-        if not _NEW_UNIT * unit < optimiser.least < np.inf:
-            return MaxMinResult(optimiser, active)
+    unit = Floors(energy, points, partial(MovableHeights, unit=1.0)).values.jacobian
+    unit = unit if 0 < unit < np.inf else 1.0
+    for _ in range(_UNITS):
+        floors = Floors(energy, points, partial(MovableHeights, unit=unit))
+        yield from floors.rise(enough=_NEW_UNIT)
+        points, least = floors.points, floors.values.jacobian * unit
+        if not _NEW_UNIT * unit <= least < np.inf:
+            break
+        unit = least
+    return points, least * energy.unit, floors.active_set()

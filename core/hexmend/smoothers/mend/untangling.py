@@ -45,7 +45,7 @@ class UntanglingConfig:
         Below that share: sweeps per delta; steps of all nodes only at each `few_period`-th delta without progress.
     patience, faceted_patience : int
         Number of successive deltas without progress after which the stage ends; the second on a faceted surface, where
-        the max-min stage repairs what is left.
+        the boundary that is free in space repairs what is left.
     newton : NewtonConfig
         Of the steps of all nodes.
     """

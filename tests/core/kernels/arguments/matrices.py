@@ -67,6 +67,3 @@ def _matrices() -> Iterator[Row]:
     yield row(f"{family}.turn_blocks", "turn off_diagonal", turn=k, at=two, rows=2, columns=2, off_diagonal=size)
     yield row(f"{family}.turn_diagonal", "diagonal", turn=2, slots=two, diagonal=k)
     yield row(f"{family}.project_diagonal", "diagonal", projectors=2, slots=two, diagonal=k)
-    models = {"nodes": 3, "slopes": 3, "gains": 3, "index": case().n}
-    directions = {"first": [0, 2], "displacements": 2, "columns": 2, "gain_column": 2}
-    yield row("linear_program.rows", "index", **models, **directions)

@@ -24,7 +24,6 @@ def _metrics() -> Iterator[Row]:
     yield row("elements.corner_qualities", "points", q=m)
     yield row("elements.corner_determinants", "points", sigma=m)
     yield row("elements.corner_jacobians", "points", jacobians=m)
-    yield row("elements.jacobian_gradients", "points", corners=k, jacobians=k, derivatives=k)
     yield row("faces.angles", "points", smallest=m, largest=m)
     yield row("faces.warpage", "points", worst=m)
     yield row("faces.volume", "points", enclosed=m)

@@ -1,4 +1,4 @@
-"""Arguments of kernels of surfaces: closest points, samples, sliding boundaries."""
+"""Arguments of kernels of surfaces: closest points, samples, sliding boundaries, fits."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from hexmend.kernels.closest_point import (
     edges_of_faces,
 )
 from hexmend.kernels.sliding_surface import BoundaryQuads
+from hexmend.kernels.surface_fit import FitSamples
 from tests.core.kernels.arguments.rows import Row, case, row
 
 
@@ -36,6 +37,7 @@ def rows() -> Iterator[Row]:
     yield from _samples()
     yield from _points_and_edges()
     yield from _sliding()
+    yield from _fit()
 
 
 def _closest_points() -> Iterator[Row]:
@@ -101,3 +103,22 @@ def _sliding() -> Iterator[Row]:
     closest = {"pieces": n, "weights": n, "of_curve": n}
     yield row("sliding_surface.tangent_bases", "number", bases=n, **directions, **closest)
     yield row("sliding_surface.tangent_projectors", bases=n, projectors=n)
+
+
+def _fit() -> Iterator[Row]:
+    given, faces, k, sparsity = _trees(), case().faces, case().k, case().sparsity
+    trees, roots, j, t = BoxTrees(**given), np.zeros(5, np.int32), 5, 3
+    surface, directions = ClosestPointCache(trees, roots), np.zeros((len(given["pieces"]), 3))
+    first = {"nodes": faces[:j], "first": np.zeros((j, 3)), "slots": np.arange(j, dtype=np.int32), "roots": roots}
+    on_surface = {"surface": surface, "directions": directions, "faces": faces}
+    yield row("surface_fit.FitSamples", "nodes directions faces", **first, **on_surface)
+    found = {"distances": j + t, "vectors": j + t, "directions": j + t, "weights": j + t}
+    samples = FitSamples(**first, **on_surface)
+    known = np.full(t, -1)
+    compared = {"samples": samples, "moving": trees, "rows": np.arange(j + t), "known": known, "nodes": j + t}
+    yield row("surface_fit.distances", listed="rows", **compared, **found)
+    yield row("surface_fit.add_gradient", "gradient", nodes=j, weights=j, vectors=j, gradient=case().n)
+    pattern = {"row_start": sparsity.row_start, "columns": sparsity.columns}
+    blocks = {"off_diagonal": sparsity.blocks + 1, "diagonal": k}
+    costs = {"first": j + t, "second": j + t, "of_line": j + t}
+    yield row("surface_fit.hessian", slots=j + t, **found, **costs, **pattern, **blocks)

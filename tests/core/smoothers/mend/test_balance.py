@@ -9,11 +9,11 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.iteration import Outcome, StoppingCriteria
-from hexmend.optimise.floors.central_path import CentralPath
 from hexmend.quality import measure, summarise
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend.floors import Floors
 from hexmend.smoothers.mend.inversion import inverted_corners
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
@@ -42,7 +42,7 @@ def changes(before, after):
 def movable_least(mesh, points):
     """The least values of what can be moved, without the corners that are inverted."""
     inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
-    return CentralPath(MeshEnergy(mesh, ObjectiveNorm(1.0), inverted), points).least
+    return Floors(MeshEnergy(mesh, ObjectiveNorm(1.0), inverted), points).values
 
 
 def check_nothing_falls(result):
@@ -89,7 +89,7 @@ def test_nothing_falls_after_another_method_and_something_rises(name, first):
     assert max(changes(result.before, result.after).values()) > 1e-3
 
 
-def test_a_mean_that_would_fall_is_kept_by_going_back_towards_the_given_mesh():
+def test_a_mean_that_would_fall_is_kept():
     """Each face of a cube has a node so deep inside that hexes are nearly flat: the best shape has a lower mean."""
     cube = make("cube", size=27)
     points, size = cube.points.copy(), np.ptp(cube.points)
@@ -103,7 +103,6 @@ def test_a_mean_that_would_fall_is_kept_by_going_back_towards_the_given_mesh():
     result = smooth(mesh, Mend())
     assert shape.q_mean < result.before.q_mean - 0.01
     check_nothing_falls(result)
-    assert max(changes(result.before, result.after).values()) > 1e-3
 
 
 @pytest.mark.parametrize("name", ["five-side", pytest.param("plane", marks=pytest.mark.slow)])
@@ -166,8 +165,9 @@ def test_a_boundary_that_slides_ends_no_lower_than_a_fixed_one(name):
 
 
 def test_a_run_that_is_cut_while_the_boundary_slides_keeps_the_result_with_the_boundary_fixed():
-    mesh = SLIDING["cylinder"]()
+    mesh = slid(cylinder(16, 2), 0.2, 3)
     fixed, slides = (smooth(mesh, Mend(boundary=boundary)) for boundary in ("fixed", "slide"))
+    assert fixed.after.inverted == 0
     for limit in range(fixed.iterations, slides.iterations):
         cut = smooth(mesh, Mend(boundary="slide"), max_iterations=limit)
         assert cut.outcome is Outcome.MAX_ITERATIONS

@@ -13,8 +13,7 @@ from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.maxmin import MAXMIN
-from hexmend.smoothers.mend.stages import Stages
+from hexmend.smoothers.mend.free_boundary import AUTO_FIT
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -33,16 +32,16 @@ def chamfered(n=3):
 
 
 @pytest.mark.parametrize("goal", ["shape", "scaled-jacobian"])
-def test_nodes_that_hold_hexes_inverted_leave_the_boundary_and_only_they(goal):
+def test_nodes_that_hold_hexes_inverted_leave_the_boundary_and_those_around_hardly(goal):
     mesh, edge = chamfered()
     fixed = smooth(mesh, Mend(goal=goal))
     result = smooth(mesh, Mend(goal=goal, boundary="slide"))
     assert (fixed.after.inverted, result.after.inverted) == (3, 0)
-    left = result.departures.nodes
+    distances = result.departures.distance / mesh.mean_edge_length
+    assert result.departures.nodes.size > 0
     around = np.union1d(edge, mesh.topology.rings.of(edge))
-    assert left.size > 0
-    assert np.isin(left, around).all()
-    assert result.surface.max <= 0.3 * (1 + 1e-4)
+    assert np.isin(distances.argmax(), around)
+    assert np.count_nonzero(distances > AUTO_FIT) <= around.size
     assert "nodes have left" in result.surface_sentence or "node has left" in result.surface_sentence
 
 
@@ -69,7 +68,7 @@ def test_where_pins_hold_hexes_inverted_a_small_tolerance_ends_no_worse():
     mesh, edge = chamfered(6)
     mesh = with_pinned(mesh, edge[:3])
     result = smooth(mesh, Mend(goal="scaled-jacobian", boundary="slide", surface_tolerance=0.2), SHORT)
-    assert 0 < result.after.inverted <= result.before.inverted
+    assert result.after.inverted < result.before.inverted
     assert result.surface.max <= 0.2 * (1 + 1e-4)
 
 
@@ -94,7 +93,7 @@ def check_freedom(mesh):
     fixed, slides = (smooth(mesh, Mend(goal="scaled-jacobian", boundary=boundary)) for boundary in ("fixed", "slide"))
     assert slides.after.inverted <= fixed.after.inverted
     if not fixed.after.inverted:
-        assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - MAXMIN.regained
+        assert slides.after.scaled_jacobian_min >= fixed.after.scaled_jacobian_min - 1e-9
 
 
 @pytest.mark.slow
@@ -115,15 +114,12 @@ def perturbed(mesh, seed):
 
 
 @pytest.mark.slow
-def test_rounding_does_not_choose_the_nodes_that_leave():
-    """Whether the barrier untangles all hexes or leaves two is chance where nodes slide on facets."""
+def test_rounding_does_not_choose_whether_a_ball_is_untangled():
     mesh = SMALL["ball"]()
     meshes = [mesh, *(perturbed(mesh, seed) for seed in (1, 3))]
     ends = [smooth(each, Mend(goal="scaled-jacobian", boundary="slide")) for each in meshes]
     assert [end.after.inverted for end in ends] == [0, 0, 0]
-    assert len({end.departures.nodes.size for end in ends}) == 1
-    least = [end.after.scaled_jacobian_min for end in ends]
-    assert max(least) - min(least) < 0.05
+    assert min(end.after.scaled_jacobian_min for end in ends) > 0.4
 
 
 @pytest.mark.slow
@@ -133,7 +129,6 @@ def test_rounding_does_not_choose_the_quality_of_a_real_boundary(real_mesh):
     assert result.after.scaled_jacobian_min > 0.25
     assert result.after.q_min > 0.4
     assert result.after.q_mean > 0.86
-    assert result.surface.max <= 0.3 * (1 + 1e-4)
 
 
 @pytest.mark.slow
@@ -143,7 +138,6 @@ def test_the_floors_rise_where_nodes_have_left_too():
     assert balanced.departures.nodes.size > 0
     assert balanced.after.scaled_jacobian_min > shape.after.scaled_jacobian_min + 0.01
     assert "The minimum scaled Jacobian of the corners that can be moved reached" in balanced.message
-    assert balanced.surface.max <= 0.3 * (1 + 1e-4)
 
 
 def check_tolerances(mesh, tolerances):
@@ -210,30 +204,18 @@ def test_edges_between_sets_are_left_only_with_a_tolerance_in_numbers():
     np.testing.assert_array_equal(holding.node_class, released.node_class)
 
 
-@pytest.mark.parametrize(
-    ("settings", "passed_over"),
-    [({}, True), ({"surface_tolerance": 0.0}, False), ({"goal": "shape"}, False), ({"goal": "balanced"}, False)],
-)
-def test_sliding_is_passed_over_where_a_hex_is_mended_off_the_surface_only(monkeypatch, settings, passed_over):
+@pytest.mark.parametrize("settings", [{}, {"surface_tolerance": 0.0}, {"goal": "shape"}, {"goal": "balanced"}])
+def test_a_hex_with_two_faces_on_a_flat_patch_is_mended_off_the_surface_only(settings):
     """The corner of a block is cut off, so that a hex has two faces on one flat patch."""
-    mesh, starts, start_sliding = grid(3), [], Stages.start_sliding
-
-    def start(*arguments):
-        found = yield from start_sliding(*arguments)
-        starts.append(found)
-        return found
-
-    monkeypatch.setattr(Stages, "start_sliding", start)
+    mesh = grid(3)
     edge = (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0)
     points = np.where(edge[:, None], mesh.points + [0.5, 0.5, 0], mesh.points)
     result = smooth(mesh.with_points(points), Mend(**{"goal": "scaled-jacobian", "boundary": "slide"} | settings))
-    assert [(found.passed_over, found.shape is None) for found in starts] == [(passed_over, passed_over)]
     assert (result.after.inverted == 0) == (settings.get("surface_tolerance") != 0.0)
 
 
 @pytest.mark.slow
 def test_hexes_that_untangling_leaves_inverted_are_raised_from_where_the_fewest_are(real_mesh):
-    """From the start of other detours some hexes of this mesh end flat."""
     result = smooth(read(real_mesh("dragon_in.mesh")), Mend(goal="scaled-jacobian", boundary="slide"))
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.1

@@ -30,7 +30,8 @@ def test_the_smallest_step_rises_above_that_of_the_optimum_of_shape(amplitude):
     shape, raised = (smooth(mesh, Mend(goal=goal)) for goal in ("shape", "time-step"))
     assert raised.after.inverted == 0
     assert step_of(raised.mesh) > 1.1 * step_of(shape.mesh) > step_of(mesh)
-    assert "The minimum time step of the corners that can be moved is 0.59" in raised.message
+    assert "The minimum time step of the corners that can be moved is " in raised.message
+    assert step_of(raised.mesh) > 0.59
 
 
 def test_a_block_that_is_at_its_optimum_stays():

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned
-from hexmend.energy import LinearMotionEnergy, MeshEnergy, SlidingEnergy, energy_of
+from hexmend.energy import MeshEnergy, energy_of
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.refinement import Refinement, find_refinement
-from hexmend.smoothers.mend.nested.coarse_sliding import CoarseSliding
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,22 +56,11 @@ class CoarseProblem:
 
     def _interpolated(self, values: np.ndarray, coarse: np.ndarray, base: np.ndarray | float) -> np.ndarray:
         """Interpolate from coarse nodes (c, 3) and nodes that stay (n, 3), add a base, and keep constraints."""
-        fine, kept = self.fine, self.fine.mesh.fixed.copy()
+        kept = self.fine.mesh.fixed.copy()
         values[self.refinement.vertices] = coarse
         kept[self.refinement.vertices] = True
         self.refinement.interpolate(values, kept)
         points = self._constrained(values + base)
-        sliding = _sliding_energy(fine)
-        if sliding is not None and sliding.sliding_nodes.size:  # nodes inside follow those on curved surfaces
-            nodes = sliding.sliding_nodes
-            points = np.array(points)
-            points[nodes] = sliding.sliding.project(points[nodes], nodes)
-            kept[nodes] = True
-            values[nodes] = points[nodes] - (base if np.isscalar(base) else base[nodes])
-            self.refinement.interpolate(values, kept)
-            values += base
-            values[nodes] = points[nodes]
-            points = self._constrained(values)
         return as_immutable_owned(points)
 
     def _constrained(self, points: np.ndarray) -> np.ndarray:
@@ -92,7 +80,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarsePr
     ----------
     mesh : Mesh
     energy : MeshEnergy
-        Of the mesh, fixed or sliding.
+        Of the mesh.
     least_hexes : int
         Of a coarse mesh that is worth while.
     """
@@ -104,12 +92,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarsePr
     if refinement is None:
         return None
     coarse = _coarse_mesh(mesh.points, energy.mesh, refinement)
-    sliding = _sliding_energy(energy)
-    if sliding is None:
-        problem = energy_of(coarse, energy.norm)
-    else:
-        problem = SlidingEnergy(CoarseSliding(sliding.sliding, refinement, coarse), energy.norm, flat_is_linear=True)
-        problem = problem if coarse.linear_motion is None else LinearMotionEnergy(problem)
+    problem = energy_of(coarse, energy.norm)
     if not problem.nodes.size:
         return None
     return CoarseProblem(energy, mesh.points, refinement, coarse, problem)
@@ -125,9 +108,3 @@ def _coarse_mesh(points: np.ndarray, fine: Mesh, refinement: Refinement) -> Mesh
         start = coarse.with_points(fine.motion_start[vertices])
         coarse = start.with_linear_motion(motion).with_points(coarse.points)
     return coarse.with_fixed(fine.fixed[vertices])
-
-
-def _sliding_energy(energy: MeshEnergy) -> SlidingEnergy | None:
-    """The part of an energy that knows the boundary if that slides."""
-    inner = energy.energy if isinstance(energy, LinearMotionEnergy) else energy
-    return inner if isinstance(inner, SlidingEnergy) else None

@@ -4,33 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-
-#: Hexes in a batch, which bounds the memory of temporary arrays.
-_HEXES = 50_000
-
-
-def least_corner_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Compute the least of the three heights at each corner of hexes, (k, 8); negative for an inverted corner.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    hexes : (k, 8) int
-
-    Examples
-    --------
-    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
-    >>> least_corner_heights(UNIT_CUBE * [3, 2, 0.5], np.arange(8)[None])
-    array([[0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5]])
-    """
-    values = np.empty((len(hexes), 8))
-    for first in range(0, len(hexes), _HEXES):
-        part = slice(first, first + _HEXES)
-        heights = corner_heights(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4))
-        values[part] = heights.min(axis=1, initial=np.inf).reshape(-1, 8)
-    return values
-
 
 def corner_heights(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Compute the heights of corners (k, 4), the apex and the ends of its edges each, over their faces, (k, 3).

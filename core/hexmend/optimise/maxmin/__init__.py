@@ -1,1 +1,0 @@
-"""Maximise the minimum scaled Jacobian of a mesh by sequential linear programming."""

@@ -1,0 +1,310 @@
+"""Floors that rise: the highest minimum scaled Jacobian above a floor of q(H), and the best shape above both.
+
+The floor of the scaled Jacobians is an unknown t, eliminated exactly (`MaximisedFloor`); the gap between it and the
+least falls, as the parameter of an interior point method does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.energy import MeshEnergy
+from hexmend.energy.ranks import Ranks
+from hexmend.energy.surface_fit import SurfaceFit
+from hexmend.iteration import ActiveSet, Step
+from hexmend.optimise.descent import Descent, descend
+from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
+from hexmend.optimise.floors.movable_hexes import MovableHexes
+from hexmend.optimise.floors.region import Region
+from hexmend.optimise.search_direction import DirectionMethod, TruncatedNewton, TruncatedNewtonConfig
+from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
+
+
+@dataclass(frozen=True)
+class FloorsConfig:
+    """Settings of the stage.
+
+    Parameters
+    ----------
+    reward, reward_growth : float
+        Of a higher floor, with the first gap, and its factor from one gap to the next: stretched hexes resist a rise.
+    gaps : (float, float)
+        Between floor and least, first and last; each is a quarter of the one before.
+    bands : (float, float)
+        Least and greatest width of the barrier, which is 200 gaps.
+    steps : int
+        Most Newton steps with one gap.
+    centred : float
+        Slope, as a share of the barrier's weight, at which nodes are centred.
+    rising : float
+        A gap is kept while the least rises by more than this share of it, or of 0.1.
+    accuracy : float
+        See `Floors.rise`.
+    rounds : int
+        Most gaps.
+    rings : int
+        Layers of hexes around those near the floors whose nodes move.
+    whole : float
+        Share of the mesh from which on all its nodes move.
+    loosest : float
+        Of `TruncatedNewtonConfig`.
+    active : float
+        Share of the greatest multiplier from which on a corner counts as active.
+    fit_share : float
+        Weight of the fit as a share of that of the barrier with the first reward.
+    relax_weights : tuple of float
+        Of the barriers while the shape improves above floors.
+    relax_band : float
+        Width of these barriers.
+    relax_fit : float
+        Weight of the fit.
+    relax_steps : int
+    relaxed : float
+        Slope, as a share of the energy, at which the shape is relaxed.
+    """
+
+    reward: float = 1e3
+    reward_growth: float = 1.5
+    gaps: tuple[float, float] = (0.02, 1e-4)
+    bands: tuple[float, float] = (0.02, 0.1)
+    steps: int = 12
+    centred: float = 0.03
+    rising: float = 0.03
+    accuracy: float = 3e-3
+    rounds: int = 30
+    rings: int = 2
+    whole: float = 0.5
+    loosest: float = 0.1
+    active: float = 0.01
+    fit_share: float = 0.05
+    relax_weights: tuple[float, ...] = (1.0, 0.1, 0.01)
+    relax_band: float = 0.1
+    relax_fit: float = 0.02
+    relax_steps: int = 8
+    relaxed: float = 1e-4
+
+
+FLOORS = FloorsConfig()
+#: Minimum scaled Jacobian above which the energy's barrier can be used.
+BARRIER_SAFE = 0.02
+_GAPS_PER_BAND = 200.0
+
+
+class Values:
+    """Minimum scaled Jacobians and qualities of the hexes that can be moved.
+
+    Parameters
+    ----------
+    ranks : Ranks
+    x : (n, 3) float64
+        Positions, in mean edge lengths.
+    jacobians, qualities : (m,) float64
+        See `MovableHexes`.
+
+    Attributes
+    ----------
+    jacobian, quality : float
+        The least of them; inf where nothing can be moved.
+    """
+
+    def __init__(self, ranks: Ranks, x: np.ndarray, jacobians: np.ndarray, qualities: np.ndarray):
+        self.x, self.jacobians, self.qualities = x, jacobians, qualities
+        self.jacobian, self.quality = (ranks.least(float(of.min(initial=np.inf))) for of in (jacobians, qualities))
+
+
+class Floors:
+    """Nodes on their way to higher floors.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+        Pulls where the barriers do not; corners that are inverted at `points` are omitted.
+    points : (n, 3) float64
+        Where they begin.
+    movable : callable
+        Makes the values of the hexes that rise.
+    """
+
+    def __init__(
+        self,
+        energy: MeshEnergy,
+        points: np.ndarray,
+        movable: Callable[[MeshEnergy], MovableHexes] = MovableHexes,
+        config: FloorsConfig = FLOORS,
+    ):
+        self.energy, self._config, self._movable, self._hexes = energy, config, movable, movable(energy)
+        self.solver_iterations, self.reward = 0, config.reward
+        self._touched = np.zeros(energy.mesh.n_hexes, dtype=bool)  # hexes that have moved while floors rose
+        self.move_to(energy.to_edge_units(points))
+
+    @property
+    def points(self) -> np.ndarray:
+        """The present positions in the mesh's unit, (n, 3)."""
+        return self.energy.to_mesh_units(self.values.x)
+
+    def active_set(self) -> ActiveSet:
+        """Find the corners that hold the floor down, by their multipliers: the shares of the reward."""
+        config = self._config
+        reward = Reward(config.reward, config.gaps[1], config.bands[0])
+        maximised = MaximisedFloor(self.energy, reward, self._hexes)
+        hexes, nodes, shares = maximised.multipliers(self.values.x)
+        heavy = np.flatnonzero(shares > config.active * shares.max(initial=0.0))
+        heavy = heavy[np.argsort(-shares[heavy], kind="stable")]
+        return ActiveSet(hexes[heavy], nodes[heavy], self._hexes.locked_below(self.values.x, self.values.jacobian))
+
+    def move_to(self, x: np.ndarray) -> None:
+        """Go to positions x (n, 3) in mean edge lengths."""
+        self.values = Values(self.energy.ranks, x, self._hexes.jacobians(x), self._hexes.qualities(x))
+
+    def rise(
+        self,
+        quality_floor: float = -np.inf,
+        enough: float = np.inf,
+        first_gap: float = FLOORS.gaps[0],
+        accuracy: float = FLOORS.accuracy,
+    ) -> Generator[Step, None, None]:
+        """Raise the minimum scaled Jacobian above a floor of q(H), to which q(H) rises first where it is lower.
+
+        It may be lower for some gaps; it ends where it was highest.
+
+        Parameters
+        ----------
+        quality_floor : float
+        enough : float
+            It ends where the minimum scaled Jacobian has reached this.
+        first_gap : float
+            Smaller where it is nearly as high as it goes.
+        accuracy : float
+            It ends where the least rises by no more than this share of it, or of 0.1, and is as near the floor.
+
+        Yields
+        ------
+        Step
+            After each gap.
+        """
+        best = self.values
+        if not best.jacobian < np.inf:  # no corner can be moved
+            return
+        for step in self._gaps(quality_floor, enough, first_gap, accuracy):
+            is_kept = self.values.quality >= min(quality_floor, best.quality)
+            best = self.values if is_kept and self.values.jacobian >= best.jacobian else best
+            yield step
+        if best is not self.values:
+            self.values = best
+            yield self._step()
+
+    def _gaps(self, quality_floor: float, enough: float, gap: float, accuracy: float) -> Iterator[Step]:
+        """Narrow the gap between floor and least; see `rise`."""
+        config, last = self._config, self.values.jacobian
+        for _ in range(config.rounds):
+            floor = min(quality_floor, self.values.quality - gap)
+            band = float(np.clip(_GAPS_PER_BAND * gap, *config.bands))
+            t = self._centre(Reward(self.reward, gap, band, floor), enough)
+            yield self._step(gap=gap)
+            self.reward *= config.reward_growth
+            least, before = self.values.jacobian, last
+            last = least
+            if least >= enough and self.values.quality >= quality_floor:
+                return
+            if least > before + config.rising * max(before, 0.1):
+                continue
+            small = accuracy * max(before, 0.1)
+            if least < before + small and (gap <= config.gaps[1] or least - t < small):
+                return
+            gap = max(gap / 4, config.gaps[1])
+
+    def relax(self, jacobian: float, quality: float, everywhere: bool = False) -> Generator[Step, None, None]:
+        """Improve the shape above floors of the scaled Jacobians and of q(H), which are below the present values.
+
+        Where hexes have moved while floors rose, and near the floors; or `everywhere`.
+        """
+        config, band, values = self._config, self._config.relax_band, self.values
+        near = self._touched | (values.jacobians < jacobian + band) | (values.qualities < quality + band)
+        near |= everywhere
+        energy, hexes, region = self._around(near)
+        x = values.x if region is None else region.inside(values.x)
+        for weight in config.relax_weights:  # at the end the barrier acts close to the floors alone
+            barrier, direction = hexes.barrier(jacobian, quality, band, band, weight), self._newton()
+            above = _fitted(energy, config.relax_fit).with_barrier(barrier)
+            for _ in range(config.relax_steps):
+                step = self._descend(above, x, direction)
+                if step is None:
+                    break
+                x = step.x
+                if -step.slope < config.relaxed * step.value:
+                    break
+            self._take(region, hexes, x)
+            yield self._step()
+
+    def _centre(self, reward: Reward, enough: float) -> float:
+        """Minimise with one gap, in the part of the mesh where the barrier acts; returns the floor.
+
+        It ends where the least has reached `enough`.
+        """
+        config, values = self._config, self.values
+        near = values.jacobians < values.jacobian + reward.band
+        near |= values.qualities < reward.quality_floor + reward.band
+        self._touched |= near
+        energy, hexes, region = self._around(near)
+        maximised = MaximisedFloor(_fitted(energy, config.fit_share * config.reward * reward.gap), reward, hexes)
+        direction = FloorDirection(maximised, self._newton())
+        x = values.x if region is None else region.inside(values.x)
+        for _ in range(config.steps):
+            step = self._descend(maximised.as_energy, x, direction)
+            if step is None:
+                break
+            x = step.x
+            if -step.slope < config.centred * reward.reward * reward.gap:
+                break
+            if enough < np.inf and Values(energy.ranks, x, hexes.jacobians(x), hexes.qualities(x)).jacobian >= enough:
+                break
+        self._take(region, hexes, x)
+        return maximised.floor(x).t
+
+    def _descend(self, energy: MeshEnergy, x: np.ndarray, direction: DirectionMethod) -> Descent | None:
+        """Take a step; None where there is none."""
+        step = descend(energy, x, 0.0, direction, SEARCH, NEWTON.max_step)
+        if step is None or step.alpha == 0:
+            return None
+        self.solver_iterations += step.direction.solver_iterations
+        return step
+
+    def _newton(self) -> TruncatedNewton:
+        return TruncatedNewton(TruncatedNewtonConfig(loosest=self._config.loosest))
+
+    def _around(self, near: np.ndarray) -> tuple[MeshEnergy, MovableHexes, Region | None]:
+        """Energy and hexes of the part of the mesh around some hexes (m,) bool; of the whole without a part."""
+        energy, mesh = self.energy, self.energy.mesh
+        for _ in range(self._config.rings):
+            near = energy.ranks.complete(mask(mesh.hexes[near], mesh.n_nodes))[mesh.hexes].any(axis=1)
+        if not energy.has_parts or energy.count(near) > self._config.whole * energy.n_hexes:
+            return energy, self._hexes, None
+        region = Region(energy, np.flatnonzero(near), self.values.x)
+        return region.energy, self._movable(region.energy), region
+
+    def _take(self, region: Region | None, hexes: MovableHexes, x: np.ndarray) -> None:
+        """Take over the positions of the part that was moved, with the values of its hexes."""
+        if region is None:
+            self.move_to(x)
+            return
+        merged = region.merged(self.values.x, x)
+        jacobians, qualities = self.values.jacobians.copy(), self.values.qualities.copy()
+        jacobians[region.hexes] = self._hexes.jacobians_of(merged, region.hexes)  # corners at the rim count too
+        qualities[region.hexes] = hexes.qualities(x)
+        self.values = Values(self.energy.ranks, merged, jacobians, qualities)
+
+    def _step(self, **diagnostics: float) -> Step:
+        """The step to the present positions."""
+        values = self.values
+        given = {"least": values.jacobian, "least_q": values.quality, "solver_iterations": self.solver_iterations}
+        return Step(self.points, given | diagnostics, intermediate=True, norm=self.energy.norm)
+
+
+def _fitted(energy: MeshEnergy, weight: float) -> MeshEnergy:
+    """Return an energy with another weight of the barrier of its fit to a surface, if it has one."""
+    fit = energy.surface
+    return energy.with_surface(fit.with_weights(weight)) if isinstance(fit, SurfaceFit) else energy

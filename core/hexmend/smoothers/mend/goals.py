@@ -1,0 +1,171 @@
+"""Stage of mend that reaches its goal: floors rise from the best of some starts, then the shape improves above them."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.iteration import ActiveSet, Step
+from hexmend.quality import measure
+from hexmend.quality.regressions import WORSE_BY
+from hexmend.smoothers.mend.floors import BARRIER_SAFE, FLOORS, Floors
+from hexmend.smoothers.mend.free_boundary import FreeBoundary
+from hexmend.smoothers.mend.mend_settings import MendSettings
+from hexmend.smoothers.mend.messages import balance_message, limit_message
+
+#: Minimum scaled Jacobian from which on the goal balanced has nothing to gain.
+SOUND = 0.99
+#: Shares of the highest minimum scaled Jacobian tried as its floor, first around what rose and then everywhere, until
+#: the mean of q(H) is no lower than as given.
+KEPT_SHARES = ((0.96, False), (0.96, True), (0.85, True), (0.6, True), (0.0, True))
+#: Share by which the least values may fall where a mesh has a target.
+TARGET_FALL = 0.05
+#: Least values count in steps of this share in the choice of the best iterate: the shape improves within one.
+STEP_OF_LEAST = 0.005
+#: Accuracy of a rise of which the last 4 % are given up.
+ROUGH = 0.01
+#: First gap of a rise from figures that are not reached otherwise.
+_SMALL_GAP = 1e-3
+
+
+class Reached(NamedTuple):
+    """Result of a goal: points (n, 3), a sentence about them, the corners that let the least rise no further, and the
+    boundary that moved for it.
+    """
+
+    points: np.ndarray
+    message: str = ""
+    active: ActiveSet | None = None
+    boundary: FreeBoundary | None = None
+
+
+def counted_steps(least: float) -> int:
+    """Number of whole steps of `STEP_OF_LEAST` of a minimum scaled Jacobian below 1; those of one below 0 are equal.
+
+    >>> counted_steps(1.0), counted_steps(0.9951), counted_steps(0.5) == counted_steps(0.4995)
+    (0, 0, True)
+    """
+    return int(np.floor(np.log(max(least, 1e-6)) / np.log1p(-STEP_OF_LEAST))) if least < 1 else 0
+
+
+def reach_goal(
+    settings: MendSettings,
+    energy: MeshEnergy,
+    starts: Sequence[np.ndarray],
+    given: np.ndarray,
+    mean: float = -np.inf,
+    boundary: FreeBoundary | None = None,
+) -> Generator[Step, None, Reached]:
+    """Reach the goal of a run.
+
+    Parameters
+    ----------
+    settings : MendSettings
+    energy : MeshEnergy
+        With p = 1; with the fit of a boundary that moves.
+    starts : sequence of (n, 3) float64
+        The optimum of shape last.
+    given : (n, 3) float64
+        Points whose least figures the goal balanced is not to lower.
+    mean : float
+        Mean of q(H) below which it is not to fall.
+    boundary : FreeBoundary, optional
+        Of the energy: its corners and curves move too where a higher least needs it.
+
+    Yields
+    ------
+    Step
+
+    Returns
+    -------
+    Reached
+    """
+    if settings.balances:
+        return (yield from _balance(energy, starts, given, mean, boundary))
+    floors = Floors(energy, starts[-1])
+    if settings.maximises_jacobian or not floors.values.jacobian >= BARRIER_SAFE:
+        best = max((Floors(energy, start) for start in starts), key=lambda one: one.values.jacobian)
+        floors.move_to(best.values.x)
+        enough = np.inf if settings.maximises_jacobian else BARRIER_SAFE
+        floors, boundary = yield from _raise(floors, boundary, enough=enough)
+        if settings.maximises_jacobian:
+            yield from floors.rise(first_gap=_SMALL_GAP)
+    if settings.maximises_jacobian:
+        yield from _relax(floors, Floors(energy, given).values.jacobian)
+        active = floors.active_set()
+        message = limit_message(floors.energy.mesh, active, floors.values.jacobian, "scaled Jacobian")
+        return Reached(floors.points, message, active, boundary)
+    if settings.goal == "time-step":
+        from hexmend.smoothers.mend.time_step import raise_time_step
+
+        points, least, active = yield from raise_time_step(floors.energy, floors.points)
+        return Reached(points, limit_message(energy.mesh, active, least, "time step"), active, boundary)
+    return Reached(floors.points, boundary=boundary)
+
+
+def _raise(
+    floors: Floors, boundary: FreeBoundary | None, quality_floor: float = -np.inf, enough: float = np.inf
+) -> Generator[Step, None, tuple[Floors, FreeBoundary | None]]:
+    """Raise floors, once more with the corners and curves free at the lowest hexes, where these have any."""
+    yield from floors.rise(quality_floor, enough, accuracy=ROUGH)
+    if boundary is not None and floors.values.jacobian < min(SOUND, enough):
+        wider = boundary.with_features(floors.points)
+        if wider is not None:
+            boundary, floors = wider, Floors(wider.fitted, floors.points)
+            yield from floors.rise(quality_floor, enough, first_gap=FLOORS.gaps[0] / 4, accuracy=ROUGH)
+    return floors, boundary
+
+
+def _relax(floors: Floors, given: float) -> Generator[Step, None, None]:
+    """Improve the shape without a minimum scaled Jacobian that is lower, as far as it counts, or than as given."""
+    values = floors.values
+    if values.jacobian > 0:
+        floor = (1 - STEP_OF_LEAST) ** (counted_steps(values.jacobian) + 1) * (1 + 1e-9)
+        floor = max(floor, _below(given))
+        yield from floors.relax(min(floor, values.jacobian - 1e-9), _below(values.quality), everywhere=True)
+
+
+def _balance(
+    energy: MeshEnergy, starts: Sequence[np.ndarray], given: np.ndarray, mean: float, boundary: FreeBoundary | None
+) -> Generator[Step, None, Reached]:
+    """Raise the minimum scaled Jacobian above a floor of q(H), then improve the shape above floors just below both."""
+    floors, first = Floors(energy, starts[-1]), Floors(energy, given).values
+    shape = floors.values
+    if not shape.jacobian < SOUND:
+        return Reached(starts[-1], boundary=boundary)
+    share = 1.0 if energy.target is None else 1 - TARGET_FALL
+    sound = first.jacobian > 0
+    jacobian, quality = (share * first.jacobian, share * first.quality) if sound else (-np.inf, -np.inf)
+    enough = np.inf
+    if energy.target is not None:  # the lengths that are wanted come first: raising corners would change them
+        if shape.jacobian >= jacobian and shape.quality >= quality:
+            return Reached(starts[-1], boundary=boundary)
+        enough = max(shape.jacobian, jacobian)
+    for start in starts[:-1]:
+        values = Floors(energy, start).values
+        if values.jacobian > floors.values.jacobian:
+            floors.move_to(values.x)
+    floors, boundary = yield from _raise(floors, boundary, max(quality, shape.quality), enough)
+    again = sound and not (floors.values.jacobian >= jacobian and floors.values.quality >= quality)
+    if again:
+        floors.move_to(first.x)
+        yield from floors.rise(quality, enough, first_gap=_SMALL_GAP)
+    top = floors.values
+    for kept, everywhere in KEPT_SHARES if energy.target is None else KEPT_SHARES[-1:]:
+        floors.move_to(top.x)
+        yield from floors.relax(
+            min(max(kept * top.jacobian, _below(jacobian)), _below(top.jacobian)),
+            _below(min(max(quality, shape.quality), top.quality)),
+            everywhere=everywhere or again,
+        )
+        if not energy.mean(measure(floors.points, energy.mesh.hexes).q) < mean:
+            break
+    return Reached(floors.points, balance_message(energy, floors, top, starts[-1]), boundary=boundary)
+
+
+def _below(value: float) -> float:
+    """Return a floor below a value, but not so far that it would count as lower."""
+    return value - WORSE_BY / 2

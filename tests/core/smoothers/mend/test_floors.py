@@ -1,0 +1,109 @@
+"""Floors that rise: the highest least of a node by brute force, nothing ends lower, and shape above floors."""
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from hexmend.energy import MeshEnergy, ObjectiveNorm
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.quality import measure
+from hexmend.smoothers.mend.floors import FLOORS, Floors
+from tests.core.boundary.solids import wavy
+from tests.core.grids import grid, scrambled
+
+SEEDS = pytest.mark.parametrize("seed", range(4))
+
+
+def floors_of(mesh):
+    """Floors at the nodes of a mesh."""
+    return Floors(MeshEnergy(mesh, ObjectiveNorm(1.0)), mesh.points)
+
+
+def risen(floors, *args, **options):
+    """Steps of the rise."""
+    return list(floors.rise(*args, **options))
+
+
+def highest(mesh, node, seed):
+    """The highest least scaled Jacobian of the corners with a node, by searches without derivatives."""
+    corners = mesh.hexes[:, CORNER_TETRAHEDRA].reshape(-1, 4)
+    corners = corners[(corners == node).any(axis=1)]
+
+    def fall(at):
+        points = mesh.points.copy()
+        points[node] = at
+        edges = points[corners[:, 1:]] - points[corners[:, :1]]
+        return -(np.linalg.det(edges) / np.linalg.norm(edges, axis=2).prod(axis=1)).min()
+
+    best = mesh.points[node]
+    for start in [best, *np.random.default_rng(seed).uniform(0.7, 1.3, (6, 3))]:
+        for _ in range(2):  # again from where it ended, as a simplex may have collapsed
+            start = minimize(fall, start, method="Nelder-Mead", options={"xatol": 1e-6, "fatol": 1e-8}).x
+        best = min(best, start, key=fall)
+    return -fall(best)
+
+
+@SEEDS
+def test_one_node_rises_to_the_highest_least(seed):
+    mesh = wavy(grid(2), 0.2, seed)
+    assert np.flatnonzero(mesh.free) == [13]
+    floors = floors_of(mesh)
+    start = floors.values.jacobian
+    risen(floors)
+    assert floors.values.jacobian > start + 0.01
+    assert floors.values.jacobian == pytest.approx(highest(mesh, 13, seed), rel=0.01)
+
+
+@SEEDS
+@pytest.mark.parametrize("quality_floor", [-np.inf, 0.9, 0.97])
+def test_it_never_ends_lower_than_it_began(seed, quality_floor):
+    floors = floors_of(scrambled(wavy(grid(3), 0.12, seed), 0.15, seed))
+    start = floors.values
+    steps = risen(floors, quality_floor)
+    end = floors.values
+    assert end.jacobian >= start.jacobian
+    assert end.quality >= min(quality_floor, start.quality)
+    np.testing.assert_array_equal(steps[-1].points, floors.points)
+
+
+@SEEDS
+def test_shape_above_floors_keeps_both_and_lowers_the_energy(seed):
+    mesh = scrambled(wavy(grid(4), 0.1, seed), 0.2, seed)
+    floors = floors_of(mesh)
+    risen(floors)
+    top, energy = floors.values, floors.energy
+    low = 0.9 * top.jacobian, 0.9 * top.quality
+    list(floors.relax(*low, everywhere=True))
+    end = floors.values
+    assert end.jacobian > low[0]
+    assert end.quality > low[1]
+    assert energy.value(end.x) < energy.value(top.x)
+
+
+@SEEDS
+def test_it_ends_where_enough_is_reached(seed):
+    mesh = scrambled(wavy(grid(4), 0.1, seed), 0.15, seed)
+    whole, early = floors_of(mesh), floors_of(mesh)
+    steps = risen(whole)
+    enough = (early.values.jacobian + whole.values.jacobian) / 2
+    few = risen(early, enough=enough)
+    assert early.values.jacobian >= enough
+    assert len(few) < len(steps)
+
+
+def test_nodes_far_from_the_lowest_hexes_stay():
+    lattice = grid(10)
+    far = np.abs(lattice.points - 5).max(axis=1)
+    points = wavy(lattice, 0.01).points.copy()
+    points[far == 0] += [0.4, 0.3, 0.2]
+    floors = floors_of(lattice.with_points(points))
+    start = floors.values.jacobian
+    risen(floors, enough=0.8)
+    assert 0 < start < 0.4 < 0.8 <= floors.values.jacobian
+    list(floors.relax(0.7, 0.5))
+    has_moved = np.abs(floors.points - points).max(axis=1) > 1e-12
+    assert has_moved[far == 0].all()
+    assert far[has_moved].max() <= FLOORS.rings + 1
+    now, near = measure(floors.points, lattice.hexes), (far[lattice.hexes] <= FLOORS.rings).all(axis=1)
+    np.testing.assert_allclose(floors.values.jacobians[near], now.scaled_jacobian[near], rtol=1e-12)
+    np.testing.assert_allclose(floors.values.qualities[near], now.q[near], rtol=1e-12)
