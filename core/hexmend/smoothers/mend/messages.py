@@ -37,12 +37,10 @@ def certified_message(before: ElementQuality, after: ElementQuality) -> str:
     if count <= 0:
         return ""
     were = count_phrase(count, "hex that was invalid is", "hexes that were invalid are")
-    pairs = [(of.scaled_jacobian.min(), of.q.min()) for of in (before, after)]
-    (jacobian, q), (new_jacobian, new_q) = pairs
-    return (
-        f"{were} valid now: for that the minimum scaled Jacobian went from {jacobian:.4f} to {new_jacobian:.4f}, and "
-        f"the least q(H) from {q:.4f} to {new_q:.4f}."
-    )
+    figures = {"minimum scaled Jacobian": "scaled_jacobian", "least q(H)": "q"}
+    pairs = {name: [f"{getattr(of, key).min():.4f}" for of in (before, after)] for name, key in figures.items()}
+    cost = [f"the {name} went from {old} to {new}" for name, (old, new) in pairs.items() if old != new]
+    return f"{were} valid now: for that {' and '.join(cost)}." if cost else f"{were} valid now."
 
 
 def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
