@@ -49,7 +49,7 @@ class MovableHexes:
         return least
 
     def jacobians_of(self, x: np.ndarray, among: np.ndarray) -> np.ndarray:
-        """Compute those of some hexes (k,) int alone, (k,)."""
+        """Compute the minimum scaled Jacobians of some hexes (k,) int, (k,), as `jacobians`."""
         return self.corners_in_place(x, among).min(axis=1)
 
     def corners(self, x: np.ndarray) -> np.ndarray:
@@ -88,7 +88,7 @@ class MovableHexes:
 
 
 class MovableHeights(MovableHexes):
-    """The same of the heights at corners in a unit of length, in place of scaled Jacobians: they bound the time step.
+    """Heights at corners in a unit of length, in place of scaled Jacobians: they bound the time step.
 
     Parameters
     ----------

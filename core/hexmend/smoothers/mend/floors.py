@@ -79,7 +79,7 @@ class FloorsConfig:
     rings: int = 2
     whole: float = 0.5
     loosest: float = 0.1
-    active: float = 0.01
+    active: float = 0.1
     fit_share: float = 0.05
     relax_weights: tuple[float, ...] = (1.0, 0.1, 0.01)
     relax_band: float = 0.1
@@ -158,7 +158,14 @@ class Floors:
 
     def move_to(self, x: np.ndarray) -> None:
         """Go to positions x (n, 3) in mean edge lengths."""
-        self.values = Values(self.energy.ranks, x, self._hexes.jacobians(x), self._hexes.qualities(x))
+        self.values = self._values(x)
+
+    def values_at(self, points: np.ndarray) -> Values:
+        """Find the values at points (n, 3)."""
+        return self._values(self.energy.to_edge_units(points))
+
+    def _values(self, x: np.ndarray) -> Values:
+        return Values(self.energy.ranks, x, self._hexes.jacobians(x), self._hexes.qualities(x))
 
     def rise(
         self,

@@ -87,14 +87,13 @@ def reach_goal(
         return (yield from _balance(energy, starts, given, mean, boundary))
     floors = Floors(energy, starts[-1])
     if settings.maximises_jacobian or not floors.values.jacobian >= BARRIER_SAFE:
-        best = max((Floors(energy, start) for start in starts), key=lambda one: one.values.jacobian)
-        floors.move_to(best.values.x)
+        floors.values = max(map(floors.values_at, starts), key=lambda values: values.jacobian)
         enough = np.inf if settings.maximises_jacobian else BARRIER_SAFE
         floors, boundary = yield from _raise(floors, boundary, enough=enough)
         if settings.maximises_jacobian:
             yield from floors.rise(first_gap=_SMALL_GAP)
     if settings.maximises_jacobian:
-        yield from _relax(floors, Floors(energy, given).values.jacobian)
+        yield from _relax(floors, floors.values_at(given).jacobian)
         active = floors.active_set()
         message = limit_message(floors.energy.mesh, active, floors.values.jacobian, "scaled Jacobian")
         return Reached(floors.points, message, active, boundary)
@@ -132,8 +131,8 @@ def _balance(
     energy: MeshEnergy, starts: Sequence[np.ndarray], given: np.ndarray, mean: float, boundary: FreeBoundary | None
 ) -> Generator[Step, None, Reached]:
     """Raise the minimum scaled Jacobian above a floor of q(H), then improve the shape above floors just below both."""
-    floors, first = Floors(energy, starts[-1]), Floors(energy, given).values
-    shape = floors.values
+    floors = Floors(energy, starts[-1])
+    shape, first = floors.values, floors.values_at(given)
     if not shape.jacobian < SOUND:
         return Reached(starts[-1], boundary=boundary)
     share = 1.0 if energy.target is None else 1 - TARGET_FALL
@@ -144,10 +143,8 @@ def _balance(
         if shape.jacobian >= jacobian and shape.quality >= quality:
             return Reached(starts[-1], boundary=boundary)
         enough = max(shape.jacobian, jacobian)
-    for start in starts[:-1]:
-        values = Floors(energy, start).values
-        if values.jacobian > floors.values.jacobian:
-            floors.move_to(values.x)
+    others = (first if start is given else floors.values_at(start) for start in starts[:-1])
+    floors.values = max(shape, *others, key=lambda values: values.jacobian)
     floors, boundary = yield from _raise(floors, boundary, max(quality, shape.quality), enough)
     again = sound and not (floors.values.jacobian >= jacobian and floors.values.quality >= quality)
     if again:

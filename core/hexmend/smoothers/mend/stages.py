@@ -39,22 +39,22 @@ class Stages(ShapeStages):
         yield Step(mesh.points)
         slides = self.settings.slides_on(mesh)
         intermediate = slides or self.goal != "shape"
-        locked_at_start = locked_corners(mesh, measure(mesh.points, mesh.hexes))
+        given = measure(mesh.points, mesh.hexes)
+        locked_at_start = locked_corners(mesh, given)
+        mean = -np.inf if given.n_inverted else float(given.q.mean())
+        del given  # large meshes have no memory for what is no longer needed
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
             yield Step(mesh.points, intermediate=True, quality=measure(mesh.points, mesh.hexes), begins=True)
         energy = self._energy(mesh, self.settings.first_norm_on(mesh))
         steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
-        del energy  # large meshes have no memory for what is no longer needed
+        del energy
         shape = yield from steps if intermediate else until_valid(steps, mesh)
         energy = self._sound(self._energy(mesh, self.settings.first_norm_on(mesh)), shape.points)
         if not intermediate:
             yield from certify_hexes(repeat(energy), shape.points)
             return shape.outcome
         starts = [mesh.points, shape.points]
-        given = measure(mesh.points, mesh.hexes)
-        mean = -np.inf if given.n_inverted else energy.mean(given.q)
-        del given
         reached = yield from reach_goal(self.settings, energy, starts, mesh.points, mean)
         moved, energies = reached.points is not shape.points, repeat(energy)
         if slides:

@@ -40,7 +40,7 @@ def test_a_solid_scrambled_within_its_faces_becomes_the_lattice_again(name, turn
     assert result.before.inverted > 0
     assert result.after.inverted == 0
     points = result.mesh.points
-    assert np.abs(points - given.points).max() < 1e-5
+    assert np.abs(points - given.points).max() < 1e-6
     off = np.abs(points[sliding.nodes] - sliding.project(points[sliding.nodes])).max()
     assert off <= (1e-14 if turned else 0.0)
 

@@ -99,7 +99,7 @@ def test_what_limits_the_least_is_told():
     values = scaled_jacobians(result.mesh.points, mesh.hexes)
     corner = mesh.hexes[result.active.hexes] == result.active.nodes[:, None]
     assert corner.sum() == result.active.hexes.size
-    np.testing.assert_allclose(values[result.active.hexes][corner], least, atol=0.02)
+    np.testing.assert_allclose(values[result.active.hexes][corner], least, atol=1e-3)
     assert (values[result.active.locked].min(axis=1) < least).all()
     shaped = smooth(mesh, Mend(goal="shape"))
     assert "The minimum scaled Jacobian" not in shaped.message
@@ -119,11 +119,11 @@ def test_a_corner_that_is_locked_below_the_others_is_told():
 
 
 @pytest.mark.slow
-def test_cad4_is_raised(real_mesh):
+def test_cad4_is_raised_to_its_optimum(real_mesh):
     mesh = read(real_mesh("CAD4.vtk"))
     result = smooth(mesh, Mend(goal="scaled-jacobian"))
     assert result.after.inverted == 0
-    assert result.after.scaled_jacobian_min >= 0.125
+    assert result.after.scaled_jacobian_min >= 0.148
     assert result.after.q_min >= result.before.q_min
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
