@@ -4,7 +4,6 @@ from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, cl
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.boundary.comparison import SurfaceChange, mutual_distances, surface_change
 from hexmend.boundary.departures import Departures, Keeping, departures
-from hexmend.boundary.deviations import Deviations
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.skin_surface import SkinSurface
 from hexmend.boundary.sliding import SlidingBoundary
@@ -16,7 +15,6 @@ __all__ = [
     "ClosestPointTrees",
     "ClosestPoints",
     "Departures",
-    "Deviations",
     "Keeping",
     "NodeClass",
     "PartitionedSurface",

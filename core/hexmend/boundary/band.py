@@ -11,7 +11,6 @@ from hexmend.arrays import extent, mask, row_norms
 from hexmend.boundary.boundary_samples import samples_of_faces
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
-from hexmend.boundary.deviations import Deviations, InitialDistances, deviations_above
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.kernels import closest_point
@@ -30,6 +29,24 @@ class _Judged(NamedTuple):
     boundary: np.ndarray  # (s,) bool: samples of the boundary that were outside, or were not examined
     surface: np.ndarray  # (t,) bool: samples of the surface
     pieces: np.ndarray  # (t,) int32: pieces of the boundary near to samples of the surface
+
+
+class InitialDistances(NamedTuple):
+    """Distances of samples of a surface from the boundary before sliding.
+
+    Parameters
+    ----------
+    distances : (s,) float64
+        In the mesh's unit.
+    nodes : (s, 4) int
+        Boundary nodes whose weighted mean is the closest point.
+    weights : (s, 4) float64
+        Their weights.
+    """
+
+    distances: np.ndarray
+    nodes: np.ndarray
+    weights: np.ndarray
 
 
 class Band:
@@ -111,99 +128,6 @@ class Band:
     def _groups_on_boundary(self) -> np.ndarray:
         """The group of faces of `skin` that is searched for each sample of the surface, (t,) int64."""
         return self._groups_on_target if self._given is None else np.zeros(len(self.target_samples), dtype=np.int64)
-
-    def samples_at(self, nodes: np.ndarray) -> np.ndarray:
-        """Find the samples of `samples` that move with some nodes (j,), as (k,) int64."""
-        return np.flatnonzero(any_of_rows(mask(nodes, len(self.points)), self.samples))
-
-    def boundary_deviation(
-        self, points: np.ndarray, indices: np.ndarray, limit: float | np.ndarray = 0.0
-    ) -> Deviations:
-        """Find samples of the boundary that are further from the surface than a limit.
-
-        Parameters
-        ----------
-        points : (n, 3) float64
-            Node positions.
-        indices : (k,) int64
-            Samples of `samples` to be examined, ascending.
-        limit : float or (k,) float64
-            In the mesh's unit; one for all samples, or one for each.
-
-        Returns
-        -------
-        Deviations
-        """
-        limit = np.broadcast_to(limit, indices.shape)
-        if limit.size and limit.min() > 0:
-            far = self.target.beyond(means(points, self.samples[indices]), self._near_target, limit, indices)
-        else:
-            # A sample cannot be further away than it was at first plus its own move: no search for the others.
-            moved = row_norms(means(points - self._start, self.samples[indices]))
-            far = self._initial_boundary_deviation[indices] + moved > np.maximum(limit, 0.0)
-        indices, limit = indices[far], limit[far]
-        nodes = self.samples[indices]
-        x = means(points, nodes)
-        enough = max(float(limit.min(initial=np.inf)), 0.0)
-        found = self.target.find(x, enough, self._near_target.pieces[indices], self._groups_on_target[indices])
-        return deviations_above(limit, indices, x, found.points, nodes, np.full(nodes.shape, 0.25))
-
-    def surface_deviation(
-        self, points: np.ndarray, indices: np.ndarray | None = None, limit: float | np.ndarray = 0.0
-    ) -> Deviations:
-        """Find samples of the surface that are further from the boundary than a limit.
-
-        Parameters
-        ----------
-        points : (n, 3) float64
-            Node positions of the boundary.
-        indices : (k,) int64, optional
-            Samples of the surface to be examined; all by default.
-        limit : float or (k,) float64
-            In the mesh's unit; one for all samples, or one for each.
-
-        Returns
-        -------
-        Deviations
-        """
-        initial, nodes, weights = self.initial_surface_deviation
-        every = indices is None
-        samples = slice(None) if every else indices
-        indices = np.arange(len(initial)) if indices is None else indices
-        limit = np.broadcast_to(limit, indices.shape)
-        if limit.size and limit.min() > 0:
-            far = self.skin.beyond(self.target_samples[samples], self._near_boundary, limit, indices, points)
-        else:
-            moved = np.einsum("sk,ski->si", weights[samples], (points - self._start)[nodes[samples]])
-            far = initial[samples] + row_norms(moved) > np.maximum(limit, 0.0)
-        indices, limit = indices[far], limit[far]
-        if not indices.size:
-            return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
-        x = self.target_samples[indices]
-        enough = max(float(limit.min(initial=np.inf)), 0.0)
-        known, groups = self._near_boundary.pieces[indices], self._groups_on_boundary[indices]
-        found = self.skin.with_points(points).find(x, enough, known, groups)
-        return deviations_above(limit, indices, x, found.points, *self.skin.weights_of_nodes(found))
-
-    def find_surface_distances(
-        self, points: np.ndarray, indices: np.ndarray, into: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-    ) -> None:
-        """Find the distances of samples of the surface from the boundary, however small.
-
-        Parameters
-        ----------
-        points : (n, 3) float64
-            Node positions of the boundary.
-        indices : (k,) int64
-            Samples of the surface.
-        into : tuple of ndarray
-            Arrays of which the rows of these samples are written: distances, directions, nodes and weights of
-            `Deviations` of all samples.
-        """
-        first, trees, near = self.initial_surface_deviation, self.skin.trees, self._near_boundary
-        samples = closest_point.SurfaceSamples(self.target_samples, *first, near.pieces, near.roots)
-        moving = vertices_of(points, self._faces), trees.pieces, trees.links, np.empty_like(trees.boxes)
-        closest_point.find_distances(*moving, self._start, self._faces, samples, indices, *into)
 
     def nodes_outside_band(self, points: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.

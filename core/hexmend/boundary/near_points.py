@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import row_norms
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.kernels import closest_point
 
@@ -35,46 +34,6 @@ class NearPoints:
     def store(self, found: ClosestPoints) -> None:
         """Store the closest points of all samples."""
         self.pieces, self._weights, self._points = found.pieces.copy(), found.weights.copy(), None
-
-    def beyond(
-        self,
-        trees: ClosestPointTrees,
-        points: np.ndarray,
-        x: np.ndarray,
-        limits: np.ndarray,
-        samples: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Find samples that are further than their limits from their trees; stores the closest points.
-
-        Parameters
-        ----------
-        trees : ClosestPointTrees
-            Those of each call have the same pieces.
-        points : (n, 3) float64
-            Points of the trees; they are fitted to these only where a search is needed.
-        x : (k, 3) float64
-            Positions of the samples; finite.
-        limits : (k,) float64
-            Not negative.
-        samples : (k,) int, optional
-            Their numbers; all by default.
-
-        Returns
-        -------
-        (k,) bool
-        """
-        some = slice(None) if samples is None else samples
-        if points is trees.points:  # a surface that does not move: its pieces need not be read again
-            distances = row_norms(x - self._places_on(trees)[some])
-        else:
-            distances, self._points = np.empty(len(x)), None
-            closest_point.distances_from(points, trees.pieces, x, self.pieces[some], self._weights[some], distances)
-        far = ~(distances <= limits)  # nothing is near a sample that is not finite
-        doubtful = np.flatnonzero(far)
-        if doubtful.size:
-            known = doubtful if samples is None else samples[doubtful]
-            far[doubtful] = self._search(trees, points, x[doubtful], limits[doubtful], known)
-        return far
 
     def means_beyond(
         self, trees: ClosestPointTrees, points: np.ndarray, nodes: np.ndarray, examined: np.ndarray, limits: np.ndarray
@@ -133,21 +92,6 @@ class NearPoints:
     @property
     def _kernel(self) -> closest_point.NearPoints:
         return closest_point.NearPoints(self.pieces, self._weights, self._places, self.roots)
-
-    def _search(
-        self, trees: ClosestPointTrees, points: np.ndarray, x: np.ndarray, limits: np.ndarray, known: np.ndarray
-    ) -> np.ndarray:
-        """Search trees at these points for samples x (k, 3) with the numbers `known` (k,); True for those beyond."""
-        if points is not trees.points:
-            trees = trees.with_points(points)
-        pieces, places, weights = self.pieces[known], np.empty((known.size, 3)), np.empty((known.size, 3))
-        found = np.empty(known.size)
-        closest_point.near(trees.box_trees, x, self.roots[known], limits, pieces, places, weights, found)
-        self.pieces[known], self._weights[known] = pieces, weights
-        if self._points is not None:
-            places[pieces < 0] = np.inf
-            self._places[known] = places
-        return ~(found <= limits)
 
     def _places_on(self, trees: ClosestPointTrees) -> np.ndarray:
         """Return the positions of all points on trees, (count, 3); infinite where there is none."""

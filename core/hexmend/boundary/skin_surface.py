@@ -10,7 +10,6 @@ import numpy as np
 from hexmend.arrays import index_of, mask, row_norms
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
@@ -146,26 +145,6 @@ class SkinSurface:
         for end in range(2):
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
         return nodes, weights
-
-    def beyond(
-        self,
-        x: np.ndarray,
-        near: NearPoints,
-        limits: np.ndarray,
-        samples: np.ndarray | None = None,
-        points: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Find points x (k, 3) that are further than limits (k,) from the surface, (k,) bool.
-
-        Parameters
-        ----------
-        x, near, limits, samples
-            See `NearPoints.beyond`.
-        points : (n, 3) float64, optional
-            Positions of the surface's nodes; its own by default.
-        """
-        vertices = self.trees.points if points is None else vertices_of(points, self.faces)
-        return near.beyond(self.trees, vertices, x, limits, samples)
 
     def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:
         """Return the nodes of the faces on which pieces (k,), such as `NearPoints.pieces`, lie, (k, 4) or (k, 3)."""

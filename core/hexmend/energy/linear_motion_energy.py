@@ -55,8 +55,6 @@ class LinearMotionEnergy(MeshEnergy):
     ----------
     nodes : (j,) int32
         Independent nodes; row i of a gradient belongs to nodes[i] and all that follow it.
-    slides : bool
-        The boundary slides.
     """
 
     def __init__(self, energy: MeshEnergy):
@@ -67,7 +65,6 @@ class LinearMotionEnergy(MeshEnergy):
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
         self.limits_moves = energy.limits_moves
-        self.slides = isinstance(energy, SlidingEnergy)
         self.has_parts = not self.reduction.has_ties
 
     def on_part(self, part: Mesh, hexes: np.ndarray, nodes: np.ndarray, x: np.ndarray | None = None) -> MeshEnergy:

@@ -60,20 +60,6 @@ def closest(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(No
     one of the tree that is near and shortens the search, or -1.
     """
 
-def near(trees: BoxTrees, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    A point of the tree of its root (j,) for each of x (j, 3): one within the limit (j,), or the closest one.
-
-    Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance
-    (j,). On entry, piece has one that is near and shortens the search, or -1.
-    """
-
-def distances_from(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric
-    weights (j, 3); infinite where the piece is -1.
-    """
-
 class NearPoints:
     """Points that were near samples before."""
 
@@ -108,26 +94,6 @@ def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the
     face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;
     numbers must exist.
-    """
-
-class SurfaceSamples:
-    """Samples of a surface on which a boundary of quads slides."""
-
-    def __init__(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
-        """
-        x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights
-        (s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)
-        int32 of the trees searched for them.
-        """
-
-def find_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], start: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], samples: SurfaceSamples, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], distances: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')]) -> None:
-    """
-    Write the rows `which` (k,) int64 of distances (s,) of samples from the boundary, of the unit vectors from
-    the closest points to the samples, directions (s, 3), and of the nodes (s, 4) int32 and weights (s, 4) of
-    these points.
-
-    points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided
-    into four of the pieces of the trees; boxes are written. start (n, 3): the nodes before sliding.
     """
 
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

@@ -4,7 +4,6 @@
 #include "boundary/closest_point.hpp"
 #include "boundary/closest_point_cache.hpp"
 #include "boundary/near_points.hpp"
-#include "boundary/surface_distances.hpp"
 #include "boundary/surface_fit.hpp"
 #include "boundary/surface_points.hpp"
 #include "boundary/tangents.hpp"
@@ -43,16 +42,6 @@ void bind_closest_point(nb::module_ m) {
           "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
           "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3). On entry, piece has\n"
           "one of the tree that is near and shortens the search, or -1.");
-    m.def(
-        "near", &near, "trees"_a, "x"_a, "roots"_a, "limits"_a, "piece"_a, "places"_a, "weights"_a, "distances"_a,
-        ReleaseGil(),
-        "A point of the tree of its root (j,) for each of x (j, 3): one within the limit (j,), or the closest one.\n\n"
-        "Writes its piece (j,) int32, the point on it (j, 3), its barycentric weights (j, 3) and its distance\n"
-        "(j,). On entry, piece has one that is near and shortens the search, or -1.");
-    m.def("distances_from", &distances_from, "points"_a, "pieces"_a, "x"_a, "piece"_a, "weights"_a, "distances"_a,
-          ReleaseGil(),
-          "Write the distance (j,) of each of x (j, 3) from a point: that of piece (j,) int32 with barycentric\n"
-          "weights (j, 3); infinite where the piece is -1.");
     nb::class_<NearPoints>(m, "NearPoints", "Points that were near samples before.")
         .def(ViewOf<std::span<std::int32_t>, std::span<Barycentric>, std::span<Point>, Indices>(), "piece"_a,
              "weights"_a, "places"_a, "roots"_a,
@@ -91,29 +80,6 @@ void bind_closest_point(nb::module_ m) {
         "Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the\n"
         "face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;\n"
         "numbers must exist.");
-    nb::class_<SurfaceSamples>(m, "SurfaceSamples", "Samples of a surface on which a boundary of quads slides.")
-        .def(
-            ViewOf<Points, Numbers, std::span<const FaceNodes>, std::span<const FaceWeights>, Indices, Indices>(),
-            "x"_a, "distances"_a, "nodes"_a, "weights"_a, "pieces"_a, "roots"_a,
-            "x (s, 3); before sliding, their distances (s,) from the boundary, and the nodes (s, 4) int32 and weights\n"
-            "(s, 4) of the closest points; pieces (s,) int32 of the boundary near them, -1 for none; roots (s,)\n"
-            "int32 of the trees searched for them.");
-    m.def(
-        "find_distances",
-        [](Points points, std::span<const Piece> pieces, std::span<const ChildLinks> links, std::span<ChildSide> boxes,
-           Points start, std::span<const FaceNodes> faces, const SurfaceSamples &samples,
-           std::span<const std::int64_t> which, std::span<double> distances, std::span<Point> directions,
-           std::span<FaceNodes> nodes, std::span<FaceWeights> weights) {
-            find_distances({points, pieces, links, boxes}, start, faces, samples, which,
-                           {distances, directions, nodes, weights});
-        },
-        "points"_a, "pieces"_a, "links"_a, "boxes"_a, "start"_a, "faces"_a, "samples"_a, "which"_a, "distances"_a,
-        "directions"_a, "nodes"_a, "weights"_a, ReleaseGil(),
-        "Write the rows `which` (k,) int64 of distances (s,) of samples from the boundary, of the unit vectors from\n"
-        "the closest points to the samples, directions (s, 3), and of the nodes (s, 4) int32 and weights (s, 4) of\n"
-        "these points.\n\n"
-        "points are the n nodes of the boundary and the centres of its faces (f, 4) int32, of which each is divided\n"
-        "into four of the pieces of the trees; boxes are written. start (n, 3): the nodes before sliding.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

@@ -101,28 +101,6 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
     });
 }
 
-void near(const BoxTrees &trees, Points x, Indices roots, Numbers limits, std::span<std::int32_t> piece,
-          std::span<Point> places, std::span<Barycentric> weights, std::span<double> distances) {
-    expect(have_rows(x.size(), roots, limits, piece, places, weights, distances),
-           "x, roots, limits, piece, places, weights and distances have different lengths: expected a row a point");
-    expect_known(piece, trees.pieces.size());
-    expect_roots(roots, trees.links.size());
-    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
-        ClosestPoint found = trees.closest(x[i], roots[i], limits[i] * limits[i], piece[i]);
-        piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
-        distances[i] = std::sqrt(found.square);
-    });
-}
-
-void distances_from(Points points, std::span<const Piece> pieces, Points x, Indices piece,
-                    std::span<const Barycentric> weights, std::span<double> distances) {
-    expect(piece.size() == x.size() && weights.size() == x.size() && distances.size() == x.size(),
-           "x, piece, weights and distances have different lengths: expected a row a point");
-    expect_known(piece, pieces.size());
-    parallel_for(x.size(), POINTS_PER_CHUNK,
-                 [&](std::int64_t i) { distances[i] = distance_from(points, pieces, x[i], piece[i], weights[i]); });
-}
-
 void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x) {
     expect(x.size() == nodes.size(), "x: a row for each of nodes is expected");
     parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) { x[i] = point(mean_of(points, nodes[i])); });

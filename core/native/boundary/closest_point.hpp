@@ -79,15 +79,6 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const ChildLi
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 
-// Write a point of the tree with the root of each x: one within the limit, or the closest one: its piece, the point,
-// its barycentric weights and its distance from x. On entry `piece` has a piece that is near, or -1.
-void near(const BoxTrees &trees, Points x, Indices roots, Numbers limits, std::span<std::int32_t> piece,
-          std::span<Point> places, std::span<Barycentric> weights, std::span<double> distances);
-
-// Write the distance of each x from the point of a piece with some weights; infinite where the piece is -1.
-void distances_from(Points points, std::span<const Piece> pieces, Points x, Indices piece,
-                    std::span<const Barycentric> weights, std::span<double> distances);
-
 // Write the mean of each four points.
 void means(Points points, std::span<const std::array<Node, 4>> nodes, std::span<Point> x);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "boundary/four_pieces.hpp"
+#include "boundary/near_points.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {
@@ -12,11 +13,6 @@ constexpr std::int64_t SAMPLES_PER_CHUNK = 128;
 constexpr std::int64_t SLOTS_PER_CHUNK = 4096;
 // Distance, in mean edge lengths, below which a vector has no direction of its own.
 constexpr double NO_DIRECTION = 1e-3;
-
-Point unit(const V3<double> &v) {
-    double size = length(v);
-    return size > 0 ? point((1 / size) * v) : Point{};
-}
 
 // The unit normal of a triangle, or tangent of a segment.
 Point direction_of(Points points, const Piece &piece) {
@@ -61,9 +57,7 @@ void fit_distances(const FitSamples &samples, const BoxTrees &moving, Indices ro
         result.distances[row] = length(r), result.vectors[row] = point(r), result.directions[row] = direction;
     };
     auto forward = [&](std::size_t i) {
-        V3<double> sum{};
-        for (Node node : samples.nodes[i]) sum += vector(moving.points[node]);
-        const V3<double> here = 0.25 * sum;
+        const V3<double> here = mean_of(moving.points, samples.nodes[i]);
         result.nodes[i] = samples.nodes[i], result.weights[i] = {0.25, 0.25, 0.25, 0.25};
         if (samples.slots[i] < 0) return put(i, here - vector(samples.first[i]), {});
         ClosestPoint found = samples.surface->closest(samples.slots[i], point(here));

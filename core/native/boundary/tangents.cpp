@@ -36,11 +36,6 @@ V3<double> across(const V3<double> &normal) {
     return over(first, std::max(std::sqrt(exact_dot(first, first)), std::numeric_limits<double>::min()));
 }
 
-Point unit(const V3<double> &v) {
-    const double size = length(v);
-    return size > 0 ? point((1 / size) * v) : Point{};
-}
-
 // Unit normals of a triangle, times its angle at each corner.
 std::array<V3<double>, 3> weighted_normals(Points points, const Piece &triangle) {
     V3<double> x[3], sides[3];

@@ -16,6 +16,12 @@ using Point = std::array<double, 3>;
 inline V3<double> vector(const Point &p) { return {p[0], p[1], p[2]}; }
 inline Point point(const V3<double> &v) { return {v.x, v.y, v.z}; }
 
+// v divided by its length; 0 for 0.
+inline Point unit(const V3<double> &v) {
+    const double size = length(v);
+    return size > 0 ? point((1 / size) * v) : Point{};
+}
+
 // Corner tetrahedra (a, b, c, d), apex a first: det [x_b - x_a, x_c - x_a, x_d - x_a] = +1 on the unit cube, Table 2.1.
 constexpr int CORNER_TETRAHEDRA[8][4] = {
     {0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3},

@@ -69,7 +69,7 @@ def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
     assert sliding.flipped_quads(mesh.points, folded).size == 1
     assert not sliding.flipped_quads(folded, folded).size
     assert not sliding.flipped_quads(folded, mesh.points).size
-    np.testing.assert_array_equal(sliding.reject_flips(mesh.points, folded), mesh.points)
+    np.testing.assert_array_equal(sliding.reject_moves(mesh.points, folded), mesh.points)
 
 
 @pytest.mark.slow

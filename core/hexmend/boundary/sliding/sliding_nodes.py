@@ -197,28 +197,6 @@ class SlidingNodes(Band):
         found[outside] = True
         return np.flatnonzero(found)
 
-    def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
-        """Undo the moves of nodes whose quads a step flips, until none is flipped.
-
-        Parameters
-        ----------
-        before, after : (n, 3) float64
-            Node positions.
-        exempt : (n,) bool, optional
-            Nodes whose quads may be flipped.
-
-        Returns
-        -------
-        (n, 3) float64
-            `after`, or a copy of it.
-        """
-
-        def rejected(points: np.ndarray) -> np.ndarray:
-            quads = self.boundary.faces[self.flipped_quads(before, points)]
-            return np.unique(quads if exempt is None else quads[~exempt[quads].any(axis=1)])
-
-        return _undone(before, after, rejected)
-
     def reject_moves(
         self, before: np.ndarray, after: np.ndarray, harmed: Callable[[np.ndarray], np.ndarray] = lambda after: NO_NODES
     ) -> np.ndarray:

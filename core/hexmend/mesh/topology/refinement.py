@@ -9,13 +9,12 @@ import numpy as np
 
 from hexmend.arrays import index_of, mask
 from hexmend.kernels import structure
-from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.topology.topology import Topology
 
 #: Place of node (x, y, z) among the 27 of a coarse hex, x, y, z in 0, 1, 2.
 _STRIDES = np.array([1, 3, 9])
 _CORNERS = (2 * UNIT_CUBE.astype(int)) @ _STRIDES
-_FACE_CENTRES = (UNIT_CUBE[FACES].sum(axis=1) / 2).astype(int) @ _STRIDES
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,26 +46,6 @@ class Refinement:
     def hexes(self) -> np.ndarray:
         """Hexes of the coarse mesh in its own numbers of nodes, (k, 8) int32."""
         return self.number[self.blocks[:, _CORNERS]]
-
-    def faces_around(self, centres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Find the faces of the coarse mesh that have some fine nodes in their middle.
-
-        Parameters
-        ----------
-        centres : (n,) bool
-
-        Returns
-        -------
-        middle : (f,) int32
-            The node in the middle of each face, ascending, each once.
-        faces : (f, 4) int32
-            Coarse nodes, counter-clockwise from outside the first hex that has the face.
-        """
-        middle = self.blocks[:, _FACE_CENTRES]
-        block, side = np.nonzero(centres[middle])
-        middle, first = np.unique(middle[block, side], return_index=True)
-        corners = _CORNERS[FACES][side[first]]
-        return middle, self.number[self.blocks[block[first, None], corners]]
 
     def interpolate(self, values: np.ndarray, kept: np.ndarray) -> None:
         """Interpolate values at fine nodes, in place, from those of coarse nodes and of nodes that are kept.

@@ -12,7 +12,6 @@ from hexmend.kernels.closest_point import (
     BoxTrees,
     ClosestPointCache,
     NearPoints,
-    SurfaceSamples,
     build_trees,
     edges_of_faces,
 )
@@ -53,9 +52,6 @@ def _closest_points() -> Iterator[Row]:
     yield row("closest_point.build_trees", "points", points=given["points"], pieces=given["pieces"], start=start)
     yield row("closest_point.refit", "points pieces", **given)
     yield row("closest_point.closest", enough=0.0, **query, **found)
-    yield row("closest_point.near", limits=j, distances=j, **query, **found)
-    pieces = given["pieces"]
-    yield row("closest_point.distances_from", "points pieces", pieces=pieces, x=j, piece=j, weights=j, distances=j)
 
 
 def _samples() -> Iterator[Row]:
@@ -69,11 +65,6 @@ def _samples() -> Iterator[Row]:
     on_faces = {"boundary_samples": faces, "faces": faces, "face_of_piece": 4 * f, "pieces": j}
     marks = {"boundary_before": f, "surface_before": j, "boundary": f, "surface": j}
     yield row("closest_point.moved_samples", "faces face_of_piece", earlier=n, **on_faces, **marks)
-    samples = SurfaceSamples(places, np.ones(j), faces[:j], np.zeros((j, 4)), roots, roots)
-    yield row("closest_point.SurfaceSamples", x=j, distances=j, nodes=j, weights=j, pieces=j, roots=j)
-    now = {"distances": j, "directions": j, "nodes": j, "weights": j}
-    boundary = {"start": case().mesh.points, "faces": faces, "samples": samples, "which": [0, 1]}
-    yield row("closest_point.find_distances", "pieces", "which", **given, **boundary, **now)
 
 
 def _points_and_edges() -> Iterator[Row]:
