@@ -256,7 +256,7 @@ class ChangeTracker:
     _last: dict[str, tuple] = field(default_factory=dict)
 
     def changed(self, key: str, *values: object) -> bool:
-        """Return True if the values differ from those of the last call with the same key, and store them.
+        """Return True if the values have changed since the last call with the same key, and store them.
 
         Parameters
         ----------

@@ -142,7 +142,7 @@ class Canvas(CameraView):
         return frame is not None and frame.mesh.hexes is mesh.hexes
 
     def show_handles(self, handles: bool, at: int) -> None:
-        """Show or hide the handles of the cut; among planes, those of the one with index `at`."""
+        """Show or hide the handles of the cut; a cut by planes has handles at the plane with index `at` alone."""
         self._handles = handles, at
         self._place_handles()
         self.draw_soon()

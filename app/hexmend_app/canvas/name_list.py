@@ -31,7 +31,7 @@ class NameList(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     def show_names(self, names: tuple[str, ...], table: np.ndarray) -> None:
-        """Show names with the colours of a table, (k, 3) uint8, of which there are as many."""
+        """Show k names, each with its colour from a table, (k, 3) uint8."""
         if names != self.names or (names and not np.array_equal(table, self._table)):
             self.names, self._table = names, table
             self.updateGeometry()

@@ -83,7 +83,7 @@ class Cut(ConfigTable):
         return cls((Plane(normal, point=point),), style=style)
 
     def check(self) -> None:
-        """Raise `ParameterError` for several shapes, one that cannot be cut smoothly, and invalid hexes."""
+        """Raise `ParameterError` for several shapes, a shape that cannot be cut smoothly, and invalid hexes."""
         if len(self._shapes) > 1:
             shapes = " and ".join(kind if kind is CutKind.PLANES else f"a {kind}" for kind in self._shapes)
             raise ParameterError(f"the cut has {shapes}: expected one of them")
@@ -137,7 +137,7 @@ class Cut(ConfigTable):
 
     @cached_property
     def sides(self) -> tuple[Plane, ...]:
-        """The planes, or those of the sides of the box or slab; beyond any, or with `notch` all, hexes are hidden."""
+        """Planes of the cut, its box or its slab; hexes beyond any plane, or with `notch` beyond all, are hidden."""
         shape = self.slab if self.box is None else self.box
         return self.planes if shape is None else shape.sides(inwards=self.notch)
 
@@ -196,7 +196,7 @@ class Cut(ConfigTable):
 def proposed_cuts(
     bounds: np.ndarray, before: Mapping[CutKind, Cut] | None = None, layers: int = 1
 ) -> dict[CutKind, Cut]:
-    """Return cuts by planes, a box, a slab and a sphere in the middle of a mesh, and one that hides its outer layer.
+    """Return cuts by planes, a box, a slab and a sphere in the middle of a mesh, and a cut that hides its outer layer.
 
     Parameters
     ----------

@@ -258,7 +258,7 @@ class Depth(ConfigTable):
 
 
 def _normalised(normal: Vector) -> Vector:
-    """Return a vector with length 1; one that has it, up to rounding, stays: copies of a plane are identical."""
+    """Scale a vector to length 1; a unit vector is not scaled again, so that copies of a plane are identical."""
     length = math.hypot(*normal)
     return normal if abs(length - 1) < _ROUNDING else tuple((np.array(normal) / length).tolist())
 

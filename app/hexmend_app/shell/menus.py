@@ -130,7 +130,7 @@ class Menus:
 
 
 def _show_face(action: QAction, face: ActionFace) -> None:
-    """Set the text, icon and help that buttons of an action show; an empty text leaves that of the menu."""
+    """Set the text, icon and help that buttons of an action show; with an empty text they show the text of the menu."""
     if action.property("face") == list(face):
         return
     action.setProperty("face", list(face))

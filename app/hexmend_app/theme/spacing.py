@@ -1,4 +1,4 @@
-"""Spacings and margins of layouts on a grid of 4 pixels, in place of those of Qt's style."""
+"""Spacings and margins of layouts on a grid of 4 pixels, in place of the defaults of Qt's style."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ GAP, MARGIN, WINDOW_MARGIN = 8, 8, 12
 
 
 def on_grid(layout: Layout) -> Layout:
-    """Set the spacings of a new layout, and its margins if it is that of a widget; return it.
+    """Set the spacings of a new layout, and its margins if it belongs to a widget; return it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Choice of the theme: light, dark, or that of the desktop."""
+"""Choice of the theme: light, dark, or as the desktop."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ class Overlay(QObject):
         self._widget.raise_()
 
     def _avoiding_others(self, wanted: QRect) -> QRect:
-        """Return the rectangle nearest to a wanted one that does not overlap others, lower if necessary."""
+        """Return the nearest rectangle to the wanted one without overlapping other widgets, lower if necessary."""
         bottom = self._over.height()
         occupied = [(bottom, bottom)]
         for other, part in self._others.items():
@@ -148,7 +148,7 @@ class Overlay(QObject):
         return max(free.width(), 0), max(free.height(), 0)
 
     def eventFilter(self, watched: QObject, event: Any) -> bool:
-        """Update the geometry with that of the other widgets, and handle the mouse."""
+        """Update the geometry when the other widgets move, and handle the mouse."""
         kind = event.type()
         if (
             kind in (QEvent.Type.Show, QEvent.Type.LayoutRequest)

@@ -43,7 +43,7 @@ class CalmAxis(pg.AxisItem):
 
 
 def left_of_next(rect: QRectF, others: Sequence[QRectF]) -> QRectF:
-    """Move the rectangle of a text to the left until it is clear of those that lie to the right of it."""
+    """Move the rectangle of a text to the left until it is clear of the rectangles to its right."""
     following = [other.left() for other in others if other.center().x() > rect.center().x()]
     excess = rect.right() + _TEXT_GAP - min(following, default=math.inf)
     return rect.translated(-max(excess, 0.0), 0.0)

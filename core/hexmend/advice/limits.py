@@ -10,7 +10,7 @@ from hexmend.smoothers.base_optimiser import Optimiser
 
 
 def larger_limits(now: Situation) -> tuple[StoppingCriteria, str]:
-    """Return the limits of the run, with the one that ended it raised, and the words for the suggestion."""
+    """Raise the limit that has ended the run; return all limits and the words for the suggestion."""
     stop = now.stop
     if now.result.outcome is Outcome.MAX_ITERATIONS:
         stop = replace(stop, max_iterations=min(max(2 * stop.limit_of(now.smoother), 100), 1_000_000))

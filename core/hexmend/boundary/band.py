@@ -198,7 +198,7 @@ class Band:
 
     @cached_property
     def target_samples(self) -> np.ndarray:
-        """Samples of the surface, (s, 3): those of a finer one are thinned, as the boundary cannot follow its details.
+        """Samples of the surface, (s, 3), thinned where it is finer than the boundary, which cannot follow its details.
 
         Edges and faces that are no longer than a cell of a lattice are not sampled; in each cell the samples that are
         furthest from the boundary and nearest to it at first are kept.

@@ -108,7 +108,7 @@ def _marks_of(cells: Cells) -> np.ndarray:
 
 
 def _joined(cells: Sequence[Cells], marks: Cells) -> tuple[Cells, ...]:
-    """Return cells with new marks, added to those of an earlier call if there are any."""
+    """Return cells with new marks, in one block with the marks of earlier calls."""
     for at, one in enumerate(cells):
         if _only_marks(one):
             nodes = np.concatenate([one.nodes, marks.nodes])

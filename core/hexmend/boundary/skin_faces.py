@@ -1,4 +1,4 @@
-"""Faces on which nodes slide: those of the boundary, then those of interfaces between materials."""
+"""Faces on which nodes slide: the boundary's, then the faces of interfaces between materials."""
 
 from __future__ import annotations
 

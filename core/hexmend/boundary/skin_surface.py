@@ -85,7 +85,7 @@ class SkinSurface:
 
     @cached_property
     def _edge_lengths(self) -> np.ndarray:
-        """Length of each edge, (e,); a run and its report need those of a large surface again."""
+        """Length of each edge, (e,); kept, as a run and its report both need it."""
         one, other = (self.points.take(self.edges.nodes[:, end], axis=0) for end in range(2))
         return row_norms(other - one)
 

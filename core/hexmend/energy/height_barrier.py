@@ -57,7 +57,7 @@ class HeightBarrier:
     def assemble(
         self, x: np.ndarray, omitted: np.ndarray, matrix: AssembledHessian, target: TargetMatrices | None
     ) -> None:
-        """Add the second derivatives without those of the heights (Gauss-Newton), semidefinite, to a matrix."""
+        """Add the Gauss-Newton part of the second derivatives, without derivatives of heights: semidefinite."""
         near, _, second, by_nodes = self._derivatives(x)
         pairs = np.einsum("hi,hinx,himy->hnmxy", second, by_nodes, by_nodes)
         ElementBlocks(self.hexes[near]).add(pairs, matrix)

@@ -1,4 +1,4 @@
-"""Sums and values that the processes of a run share; here those of a run with one process."""
+"""Sums and values that the processes of a run share; this base class serves a run with one process."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Ranks:
         return bool(np.any(own))
 
     def norm(self, own: np.ndarray) -> float:
-        """Return the Euclidean norm of an array of which each rank has a part."""
+        """Return the Euclidean norm of an array that is divided among the ranks."""
         return euclidean_norm(own)
 
     def complete(self, rows: np.ndarray) -> np.ndarray:

@@ -68,7 +68,7 @@ class Reduction:
         return steps
 
     def contract(self, forces: np.ndarray) -> np.ndarray:
-        """T^T times vectors of all free nodes, (k, 3), overwritten: those of the independent nodes, (j, 3)."""
+        """Reduce vectors of all free nodes, (k, 3), overwritten, to the independent nodes, (j, 3), by T^T."""
         turned = np.einsum("kji,kj->ki", self._turn_of_skew, forces.take(self._skew_rows, axis=0))
         forces[self._bent_rows] *= self._scales
         forces[self._skew_rows] = turned
@@ -159,7 +159,7 @@ class Reduction:
         return BlockSparsity(self.independent_mesh)
 
     def sparsity(self, whole: BlockSparsity) -> BlockSparsity:
-        """Sparsity pattern of the reduced Hessian, from that of the Hessian of all free nodes."""
+        """Return the sparsity pattern of the reduced Hessian, given the pattern for all free nodes."""
         return self._ordered_nodes if whole.has_opposite else self._ordered_nodes.of_tetrahedra
 
     def _merged(self, full: AssembledHessian) -> AssembledHessian:

@@ -70,14 +70,14 @@ class PartSliding:
         return rejected[rejected >= 0].astype(np.int64)
 
     def _of_all(self, points: np.ndarray) -> np.ndarray:
-        """Return the positions of all nodes, (n, 3), of those of the part's nodes, (j, 3)."""
+        """Return the positions of all nodes, (n, 3), with the nodes of the part at `points` (j, 3)."""
         merged = self._points.copy()
         merged[self._nodes] = points
         return merged
 
 
 class SlidingEnergy(MeshEnergy):
-    """Energy as a function of free nodes of which those of the boundary lie on their curves and patches.
+    """Energy as a function of free nodes; free nodes of the boundary lie on their curves and patches.
 
     Derivatives are those along the surface: gradient and Hessian have no components off it, so that search directions
     are tangential. The contribution of the surface's curvature to the Hessian is left out. Moved nodes are projected

@@ -131,7 +131,7 @@ class BlockSparsity:
         return self._slot_of_node[self._hexes]
 
     def shares(self, count: int) -> HexShares:
-        """The slots in `count` shares, and the hexes at the slots of each; those of the last count are kept."""
+        """Divide the slots into `count` shares and list the hexes at the slots of each; the last division is kept."""
         known, shares = self._shares
         if known != count:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)

@@ -112,7 +112,7 @@ class ValidityBarrier:
         return np.stack([np.bincount(at, shares[:, :, k].ravel(), len(x)) for k in range(3)], axis=1)
 
     def assemble(self, x: np.ndarray, norm: ObjectiveNorm, matrix: AssembledHessian) -> None:
-        """Add the second derivatives to a matrix, without those of the coefficients (Gauss-Newton): semidefinite."""
+        """Add the Gauss-Newton part of the second derivatives, without derivatives of coefficients: semidefinite."""
         _, second, by_nodes = self._derivatives(x)
         self.blocks.add(np.einsum("hi,hicx,hidy->hcdxy", second, by_nodes, by_nodes), matrix)
 

@@ -33,7 +33,7 @@ class Workspace(threading.local):
         self._bytes = np.empty(0, np.uint8)
 
     def array(self, shape: tuple[int, ...], dtype: type) -> np.ndarray:
-        """Return an array of a shape and type, with any values; one that was returned before is no longer valid."""
+        """Return an array of a shape and type, with any values; the array of an earlier call is no longer valid."""
         size = math.prod(shape) * np.dtype(dtype).itemsize
         if self._bytes.size < size:
             self.release()  # before there is more

@@ -168,7 +168,7 @@ def _search(
 
 
 def _is_poor(taken: Descent | None) -> bool:
-    """Return True if there is no step, or one that is short although the energy falls along it."""
+    """Return True if there is no step, or the step is short although the energy falls along it."""
     return taken is None or (taken.alpha < DESCENT.short and -taken.slope > DESCENT.negligible * taken.value)
 
 
@@ -193,7 +193,7 @@ def _damped(
 
 
 class _Line:
-    """Points x (n, 3) on a line along a step (k, 3); those of the last trial are kept."""
+    """Points along a step (k, 3) from x (n, 3); the points of the last trial are kept."""
 
     def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray):
         self._energy, self._x, self._delta, self._step = energy, x, delta, step

@@ -187,7 +187,7 @@ class TruncatedNewton:
     def _solve_definite(
         self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float
     ) -> tuple[CGResult, float, int]:
-        """Solve with a damping, or with the next higher one that makes the matrix positive definite.
+        """Solve with a damping, increased until the matrix is positive definite.
 
         Returns the solution, the damping, and the number of iterations of all solutions.
         """

@@ -251,7 +251,7 @@ class FeatureCamera(Feature):
         return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
 
     def _to_data(self) -> CameraData:
-        """Return the pose and its history: those of the view, or those that it is to take."""
+        """Return the pose and the pose history of the view; a requested pose that it has not taken yet comes first."""
         request = self.session.camera_request
         if request.wanted is not None and request.wanted.pose is not None:
             return CameraData(request.wanted.pose, request.pose_history)

@@ -125,7 +125,7 @@ def colour_of(curve: Curve) -> Role:
 
 
 def axis_title(curves: Sequence[Curve], by_time: bool) -> str:
-    """Return the title of the axis: seconds of the times of a case are not those of a method."""
+    """Return the title of the axis: time of a simulated case, seconds in the method, or iterations."""
     times = [curve.record.holds_times for curve in curves if curve.shown]
     if times and all(times):
         return tr("time of the case, s") if by_time else tr("time step number")

@@ -139,7 +139,7 @@ class Axis:
         return f"{tr(metric.title)} [{unit}]" if unit else tr(metric.title)
 
     def ticks(self) -> list[tuple[float, str]]:
-        """Return positions and texts of the ticks, those of the separate bars first."""
+        """Return positions and texts of the ticks; the separate bars come first."""
         ticks = [(sum(self.inverted) / 2, tr("inverted"))]
         for bar, sign, end in ((self.below, "<", self.low), (self.above, "≥", self.high)):
             if bar is not None:

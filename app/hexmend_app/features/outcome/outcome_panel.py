@@ -183,7 +183,7 @@ class _HexList(QWidget):
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
 
     def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:
-        """List hexes (k,) by number, and by that of the file if there are `ids` (m,)."""
+        """List hexes (k,) by number, with their numbers in the file if `ids` (m,) gives them."""
         self._hexes = hexes.tolist()
         links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._hexes[:_MAX_LISTED])
         more = len(self._hexes) - _MAX_LISTED

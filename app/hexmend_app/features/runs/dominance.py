@@ -33,7 +33,7 @@ def dominates(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
 
 def dominating(results: Sequence[Mapping[str, Any]]) -> list[list[int]]:
-    """Return for each result the positions of those that dominate it.
+    """Return for each result the positions of the results that dominate it.
 
     >>> figures = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
     >>> dominating([figures, figures | {"inverted": 2}, figures | {"q_min": 0.5, "q_mean": 0.8}])

@@ -41,7 +41,7 @@ class FeatureRuns(Feature):
         )
 
     def refresh(self) -> None:
-        """Show the results; that of an active run is its newest iteration."""
+        """Show the results of the runs; an active run shows its newest iteration."""
         session = self.session
         if not self.panel.isVisible() or not session.document.is_open:
             return

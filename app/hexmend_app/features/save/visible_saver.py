@@ -39,7 +39,7 @@ class VisibleSaver(QObject):
         return self._task is not None
 
     def close(self) -> None:
-        """Wait for no file any more; one that is incomplete does not replace an earlier one."""
+        """Stop waiting for the file that is being saved; an incomplete file does not replace an earlier file."""
         drop(self._task)
         self._task = None
 

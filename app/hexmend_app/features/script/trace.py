@@ -211,7 +211,7 @@ def smooth_source(
 
 
 def result_source(record: RunRecord, start: str) -> list[str]:
-    """Return lines of source, of which the last is the mesh that a run has ended with."""
+    """Return lines of source that repeat a run; the last line is an expression for its final mesh."""
     until = record.newest if record.outcome in ENDED_BY_TIME else None
     if not record.changes:
         return [f"{smooth_source(start, record.work, record.stop, record.rules, until)}.mesh"]

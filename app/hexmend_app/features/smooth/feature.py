@@ -198,7 +198,7 @@ class FeatureSmooth(Feature):
         return self.session.document.is_open and not self.session.opener.busy
 
     def _status(self) -> tuple[int | None, float | None, str]:
-        """Return iterations, seconds and a sentence about the active run or the one that led to the displayed mesh."""
+        """Return iterations, seconds and a sentence about the active run, or the run that led to the displayed mesh."""
         phase, record = self._smoothing.phase, self._smoothing.record
         if phase is Phase.STOPPING:
             started = self._smoothing.record.newest > 0

@@ -19,7 +19,7 @@ _PACES = {
 
 
 def pace_actions(run: RunController) -> Sequence[Action]:
-    """Return one action for each pace, of which the present one is checked; the choice is stored."""
+    """Return one action for each pace; the action of the present pace is checked, and the choice is stored."""
 
     def choose(pace: Pace, on: bool) -> None:
         if on and pace is not run.pace:

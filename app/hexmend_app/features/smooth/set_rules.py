@@ -50,7 +50,9 @@ def rules_of_set(rules: MotionRules, name: str) -> tuple[Rule, ...]:
 
 
 def with_set_rules(rules: MotionRules, name: str, chosen: tuple[Rule, ...]) -> MotionRules:
-    """Return rules in which those of a set are replaced; another set that was periodic with it has that rule no longer.
+    """Return rules of motion with the rules of one set replaced.
+
+    Another set that was periodic with this set loses that rule.
 
     >>> with_set_rules(MotionRules(fix=("a",)), "a", (("slide", ""),)).values()
     {'slide': ['a']}

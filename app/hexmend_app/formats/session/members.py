@@ -63,7 +63,7 @@ def _zip_members(path: Path, archive: zipfile.ZipFile) -> ArchiveMembers:
 
 
 def _folder_members(path: Path) -> ArchiveMembers:
-    """Members of a folder; other files, such as those of a killed writer, are ignored."""
+    """Return the members in a folder; other files, such as remains of a killed writer, are ignored."""
     sizes = {}
     for folder, start in ((path, ""), (path / ARRAYS, f"{ARRAYS}/")):
         for entry in os.scandir(folder) if folder.is_dir() else ():

@@ -61,7 +61,7 @@ def write_session(path: str | Path, meshes: Sequence[Mesh], now: int, window: An
 
 
 class SessionFolder:
-    """Session in a folder that is updated again and again, of which only new arrays are written.
+    """Session in a folder that is updated again and again; each update writes only new arrays.
 
     The folder is readable at any moment, even if the process is killed; see `hexmend_app.formats.session.folder`.
 

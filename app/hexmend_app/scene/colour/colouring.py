@@ -131,7 +131,7 @@ def invalid_kinds(quality: ElementQuality) -> np.ndarray:
 
 
 def are_invalid(colours: np.ndarray) -> np.ndarray:
-    """Return True for colours, (k, 3) uint8, of inverted hexes and of those that are invalid inside, (k,) bool."""
+    """Return True for colours, (k, 3) uint8, of hexes that are inverted or invalid inside, (k,) bool."""
     return (colours == INVERTED).all(axis=1) | (colours == INVALID_INSIDE).all(axis=1)
 
 

@@ -58,7 +58,7 @@ def sections(
 
 
 def remaining_hexes(points: np.ndarray, hexes: np.ndarray, cut: Cut) -> np.ndarray:
-    """Return True for hexes of which a cut leaves more than nodes on its planes, (m,) bool.
+    """Return True for hexes that a cut leaves at least in part, (m,) bool; nodes on its planes alone do not count.
 
     Parameters are those of `sections`.
     """

@@ -29,7 +29,7 @@ class CurvedEdges:
         self._edges, self._mids = edges, edge_mid_nodes(mesh.hexes, mesh.mid_nodes, edges)
 
     def places(self, points: np.ndarray) -> np.ndarray:
-        """Return the points of all lines, (e (DIVISIONS + 1), 3), edge by edge, from those of the mesh, (n, 3)."""
+        """Return the points of all lines, (e (DIVISIONS + 1), 3), edge by edge, for node positions (n, 3)."""
         middles = edge_middles(points, self._edges, self._mids)
         return divided(points[self._edges], middles).reshape(-1, 3)
 

@@ -1,4 +1,4 @@
-"""Polygons of a fine frame, each with one normal or those of a curved face, and with shading at its corners."""
+"""Polygons of a fine frame, each flat or with the normals of a curved face, and with shading at its corners."""
 
 from __future__ import annotations
 

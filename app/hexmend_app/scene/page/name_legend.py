@@ -16,7 +16,7 @@ Entry = tuple[str, tuple[int, int, int] | None]
 
 
 def name_entries(names: Sequence[str], table: Iterable[Iterable[int]], most: int) -> list[Entry]:
-    """Return the entries of the first names with their colours, and one that counts the rest.
+    """Return the entries of the first names with their colours, and a last entry that counts the rest.
 
     >>> name_entries(("a", "b", "c"), [(1, 1, 1), (2, 2, 2), (3, 3, 3)], 2)
     [('a', (1, 1, 1)), ('and 2 more', None)]

@@ -39,7 +39,7 @@ class PageMesh:
 
     @classmethod
     def of(cls, mesh: Mesh, name: str = "") -> PageMesh:
-        """Return a mesh with its measured quality; the default name is that of the mesh."""
+        """Return a mesh with its measured quality, under its own name by default."""
         return cls(name or mesh.name, mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
 
     @classmethod

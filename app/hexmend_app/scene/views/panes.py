@@ -98,7 +98,7 @@ class Panes:
         self.first.clear()
 
     def show(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
-        """Show other meshes besides that of the first view; filters are shared with meshes that have equal hexes.
+        """Show other meshes besides the mesh of the first view; meshes with equal hexes share its filters.
 
         Parameters
         ----------

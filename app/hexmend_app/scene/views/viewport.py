@@ -87,7 +87,7 @@ class Viewport:
         self.overlay_layers.set_dark(dark)
 
     def set_background(self, colour: str) -> None:
-        """Set the background colour, #rrggbb, instead of that of the theme."""
+        """Replace the theme's background colour by another, #rrggbb."""
         self._pane.set_background(colour)
 
     # Content

@@ -103,7 +103,7 @@ class Docks(DockSet):
             self._open_drawer(self.group)
 
     def _open_drawer(self, group: PanelGroup) -> None:
-        """Open the drawer with the panels of a group, or those of the first group that has any."""
+        """Open the drawer with the panels of a group; without any, with the panels of the first group that is open."""
         if not self.folded and group is self.group:
             return
         if not self._of_group(group):

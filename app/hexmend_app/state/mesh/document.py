@@ -211,7 +211,7 @@ class Document(QObject):
         return not any(earlier.mesh.points is points for earlier in states[: states.index(state)])
 
     def commit(self, title: str, state: State, show: bool = True, edit: Edit | None = None) -> None:
-        """Record a state as a change, unless its positions, hexes and `OWN_PARTS` are those of the current change.
+        """Record a state as a change, unless it has the positions, hexes and `OWN_PARTS` of the current change.
 
         Parameters
         ----------

@@ -15,7 +15,7 @@ GROUPS = ("inverted", "invalid", "invalid inside", "locked", *_OF_DISPLACEMENT)
 
 
 def invalid_counts(inverted: int, invalid: int) -> str:
-    """Return the numbers of inverted hexes and of those that are invalid inside, for captions.
+    """Return the numbers of hexes that are inverted and of hexes that are invalid inside, for captions.
 
     >>> invalid_counts(0, 0), invalid_counts(1200, 1200), invalid_counts(1, 3)
     ('none invalid', '1,200 inverted', '1 inverted, 2 invalid inside')

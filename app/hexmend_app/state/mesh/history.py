@@ -139,7 +139,7 @@ class History:
         return HistoryData(records, tuple(shown))
 
     def restore(self, data: HistoryData) -> None:
-        """Replace the runs by those of a session file; positions beyond the limit are dropped."""
+        """Replace the runs by the runs of a session file; positions beyond the limit are dropped."""
         self.clear()
         for saved in data.records:
             parent = None if saved.parent is None else RecordedIteration(self.records[saved.parent[0]], saved.parent[1])
@@ -212,7 +212,7 @@ class History:
         return next(slot for slot in range(len(used) + 1) if slot not in used)
 
     def _end_of(self, record: RunRecord) -> int:
-        """Return the place behind the last position of a record, so that those of a record stay together."""
+        """Return the place behind the last position of a record, so that its positions stay together."""
         owners = (owner for owner, *_ in reversed(self._positions))
         return len(self._positions) - next((at for at, owner in enumerate(owners) if owner is record), 0)
 

@@ -113,7 +113,7 @@ class _ComparisonTask:
 
 
 def _result_of(row: Row, initial: Mesh) -> MethodResult:
-    """Return the result of a row; its mesh has the rules of motion of the initial mesh, not those of the run."""
+    """Return the result of a row; its mesh has the initial mesh's rules of motion, whatever the rules of the run."""
     if row.mesh is None:
         return MethodResult(row, None)
     mesh = initial.with_points(row.mesh.points)

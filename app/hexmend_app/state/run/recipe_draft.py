@@ -59,7 +59,7 @@ class RecipeDraft(QObject):
         self._set(data.stages, data.title)
 
     def load(self, recipe: Recipe) -> None:
-        """Replace the stages and the title by those of a recipe, and the rules of motion if it has any."""
+        """Take the stages and the title from a recipe, and the rules of motion if it has any."""
         if recipe.rules:
             self._setup.set_rules(recipe.rules)
         default = Recipe.of(*recipe.stages).title

@@ -97,7 +97,7 @@ class Timeline(QObject):
             self._document.preview(state)
 
     def go_to_start(self) -> None:
-        """Show the node positions at the start of the document, which need not be those of an iteration."""
+        """Show the node positions at the start of the document, whether or not an iteration has them."""
         self.pause()
         if self._smoothing.busy:
             self._smoothing.view.follow(False)

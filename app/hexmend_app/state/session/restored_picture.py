@@ -89,7 +89,7 @@ class RestoredPicture:
 
     @property
     def matches(self) -> bool:
-        """True if the meshes are those of the picture; the first may also be the mesh before the run."""
+        """True if the picture shows these meshes; the first may also be the mesh before the run."""
         harmless = None, RestoreProblem.NO_SPACE, RestoreProblem.RUN
         first_matches = self.digest in (self.metadata.first.opened, self.metadata.first.shown)
         return first_matches and all(mesh.problem in harmless for mesh in self.others)

@@ -71,7 +71,7 @@ class SessionData:
             raise ValueError(f"there is no run {self.timeline.record}")
 
     def states(self) -> Iterator[State]:
-        """Yield every complete state of the mesh: the shown one first, then those of the changes."""
+        """Yield every complete state of the mesh: the shown state first, then the states of changes and comparisons."""
         yield self.document.now
         yield from (change.state for change in self.document.changes)
         yield from self._compared()

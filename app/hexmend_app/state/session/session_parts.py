@@ -140,7 +140,7 @@ class SessionParts(QObject):
         return self.document.modified or (is_session and self.saved_cameras.modified)
 
     def end_previews(self) -> None:
-        """End a sweep node by node, of which a state on the way is shown."""
+        """End a sweep node by node, and with it the preview of its intermediate state."""
         self.node_sweep.leave()
 
     def to_data(self) -> SessionData:

@@ -62,7 +62,7 @@ def write_all() -> None:
 
 
 def store_in(folder: str) -> None:
-    """Read and write the settings of this process in a folder, instead of those of the user."""
+    """Read and write the settings of this process in a folder, and leave the user's settings alone."""
     for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
         QSettings.setPath(form, QSettings.Scope.UserScope, folder)
 

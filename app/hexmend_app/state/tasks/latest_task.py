@@ -1,4 +1,4 @@
-"""Background tasks of which only the latest request counts."""
+"""Background tasks one at a time; a new request replaces the pending request."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class LatestTask(QObject):
         return self._latest is not self._ended
 
     def of(self, subject: object) -> Any:
-        """Return the result if it is that of a request whose first argument is this object; else None."""
+        """Return the result if this object is the first argument of the request that led to it; else None."""
         return self.result if self._ended is not None and self._ended[0] is subject else None
 
     def ask(self, *request: Any) -> None:

@@ -56,7 +56,7 @@ def _reading(progress: FileProgress) -> LoadProgress:
 
 
 def _read_picture(picture: MissingMesh, path: Path, task: Task) -> RestoredPicture:
-    """Read the meshes of a picture, of which the first is in the file at `path`."""
+    """Read the meshes of a picture, the first from the file at `path`."""
     opened = _read(path, task)
     states = [opened] if isinstance(opened, State) else opened.states()
     return restore_picture(picture, path, states, lambda other: task.report(LoadProgress(LoadStage.READING, other)))

@@ -32,7 +32,7 @@ class SavedCameras(QObject):
 
     @property
     def modified(self) -> bool:
-        """True if the cameras differ from those of the session that was opened or saved last."""
+        """True if the cameras have changed since a session was last opened or saved."""
         return self.all != self._saved
 
     def add(self, name: str, camera: Camera) -> None:

@@ -36,7 +36,7 @@ class SideView:
 
 @dataclass(frozen=True)
 class Wipe:
-    """Two views on top of each other, of which an edge separates the visible parts.
+    """Two views on top of each other; an edge separates their visible parts.
 
     Parameters
     ----------

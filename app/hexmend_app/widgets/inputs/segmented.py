@@ -1,4 +1,4 @@
-"""Row of joined buttons of which exactly one is checked."""
+"""Row of joined buttons with exactly one checked."""
 
 from __future__ import annotations
 

@@ -104,12 +104,12 @@ class SlidingBoundary(SlidingNodes):
 
     @property
     def surface_is_own(self) -> bool:
-        """True if the surface is that of the boundary itself, which lies on it node by node."""
+        """True if nodes slide on the boundary's own surface, on which each node lies exactly."""
         return self._given is None
 
     @property
     def start(self) -> np.ndarray:
-        """Positions of all nodes before sliding, (n, 3), those of the boundary on the surface."""
+        """Positions of all nodes before sliding, (n, 3); nodes of the boundary are on the surface."""
         return self._start
 
     @property
@@ -179,7 +179,7 @@ class SlidingBoundary(SlidingNodes):
 
 
 def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> PartitionedSurface:
-    """Curves and patches of a surface, which keeps them: a run and its report need those of a large one again."""
+    """Return the curves and patches of a surface; it keeps them, as a run and its report both need them."""
     known = target.derived.get(feature_angle)
     if known is None:
         boundary = classify(target.points, target.faces, feature_angle, edges=target.edges)

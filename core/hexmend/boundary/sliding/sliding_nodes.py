@@ -154,7 +154,7 @@ class SlidingNodes(Band):
 
     @cached_property
     def outward(self) -> np.ndarray:
-        """Outward normals of the original boundary faces, averaged with those of the faces around, (k, 3)."""
+        """Outward normals of the original boundary faces, averaged over the faces around each, (k, 3)."""
         faces = self.boundary.faces
         vertices, triangles, face = triangulate(self.points, faces)
         normals = vertex_normals(vertices, triangles, self.boundary.patch_of_face[face])
@@ -233,7 +233,7 @@ class SlidingNodes(Band):
 
 
 def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Move rejected nodes back to their positions before a step, until none of those that have moved is rejected."""
+    """Move rejected nodes back to their positions before a step, until no moved node is rejected."""
     while True:
         nodes = rejected(after)
         nodes = nodes[differing_rows(after[nodes], before[nodes])]

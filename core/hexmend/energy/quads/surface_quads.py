@@ -101,7 +101,7 @@ class SurfaceQuads:
         return self._with_normals(points).corners(points / self.unit)
 
     def _with_normals(self, points: np.ndarray) -> SurfaceTerm:
-        """Return the term with the normals at some points (n, 3), and delta = 0; that of the last call is kept."""
+        """Return the term with the normals at some points (n, 3), and delta = 0; the last result is kept."""
         known, term = self._last
         if known is not points:
             normals = self._normals(points)

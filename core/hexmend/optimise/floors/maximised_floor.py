@@ -90,7 +90,7 @@ class MaximisedFloor:
         return self._energy.with_barrier(self._barrier(t))
 
     def floor(self, x: np.ndarray) -> Floor:
-        """Find the floor at positions x (n, 3) in mean edge lengths; those of the last two are known."""
+        """Find the floor at positions x (n, 3) in mean edge lengths; the last two results are kept."""
         for known, floor in self._known:
             if known is x:
                 return floor
@@ -161,7 +161,7 @@ class MaximisedFloor:
         return self._at(self.floor(x).t).directional_derivative(x, delta, step, gradient)
 
     def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
-        """Compute the energies of hexes with the barrier of a floor below that of the last gradient; see `descend`."""
+        """Compute the energies of hexes with the barrier of a lower floor than in the last gradient; see `descend`."""
         return self._at(self._limit).with_barriers(x, delta, among)
 
     def mixed(self, x: np.ndarray) -> np.ndarray:

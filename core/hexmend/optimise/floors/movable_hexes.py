@@ -17,7 +17,7 @@ from hexmend.quality.measure import fixed_tetrahedra
 
 
 class MovableHexes:
-    """Values of hexes of which a node is free; corners with four fixed nodes do not count.
+    """Values of hexes with a free node; corners with four fixed nodes do not count.
 
     Parameters
     ----------

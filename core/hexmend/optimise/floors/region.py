@@ -40,7 +40,7 @@ class Region:
         self.energy = energy.on_part(part, attached, self._nodes, x)
 
     def inside(self, x: np.ndarray) -> np.ndarray:
-        """Return the positions of the part's nodes, of those of the whole mesh, (n, 3)."""
+        """Select the positions of the part's nodes from all positions x (n, 3)."""
         return x[self._nodes]
 
     def merged(self, x: np.ndarray, part: np.ndarray) -> np.ndarray:

@@ -76,7 +76,7 @@ RETURN = ReturnConfig()
 
 
 def tolerances_of(tolerance: float | str, absolute: float, mesh: Mesh) -> FitTolerances:
-    """Return the tolerances that a setting asks for, of which `absolute` is the value in the unit of the mesh."""
+    """Return the tolerances that a setting asks for; `absolute` is its value in the unit of the mesh."""
     patches = AUTO_FIT if tolerance == AUTO else min(_SAMPLED * absolute / mesh.mean_edge_length, _UNLIMITED)
     return FitTolerances(patches, patches, min(patches, EXACT_FIT), tolerance != AUTO)
 

@@ -113,5 +113,5 @@ def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.n
 
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:
-    """List the numbers of the first eight, each once, with those of the file."""
+    """List the numbers of the first eight hexes, each once, with their numbers in the file."""
     return with_ids(list(dict.fromkeys(hexes[:8].tolist())), hex_ids(mesh))

@@ -47,7 +47,7 @@ class NewtonConfig:
         return TruncatedNewton(config)
 
     def for_large_mesh(self) -> NewtonConfig:
-        """Return the settings for large meshes, of which regions move by many edges without a change of their hexes.
+        """Return the settings for large meshes: their regions move by many edges without a change of their hexes.
 
         Such a move is a long wave, which a damped matrix shortens, and a limit in edges too. Every step assembles a
         matrix, so that fewer but more accurate steps cost less.

@@ -40,7 +40,7 @@ class ShapeStages:
         return energy_of(mesh, norm)
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
-        """Untangle a mesh, then go to the optimum of shape; where it is a refinement, from that of the coarse mesh."""
+        """Untangle a mesh, then go to the optimum of shape; a refined mesh starts from its coarse mesh's optimum."""
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
         start = yield from nested_start(mesh, energy, self.coarse_shape, self._harms, self._nested)
@@ -64,7 +64,7 @@ class ShapeStages:
         return (yield from steps)
 
     def coarse_shape(self, mesh: Mesh, energy: MeshEnergy) -> Generator[Step, None, np.ndarray]:
-        """Go to the optimum of shape, with the first p, of the mesh of which another one is a refinement."""
+        """Go to the optimum of shape of the coarse mesh behind a refinement, with the first p."""
         stages = ShapeStages(replace(self.settings, max_p=1.0), self._nested.of_coarse_mesh())
         return (yield from stages._shape(mesh, energy, True)).points
 

@@ -170,7 +170,7 @@ def keeping(
     steps: Generator[Step, None, T],
     is_lower: Callable[[ElementQuality, ElementQuality], bool] = _is_lower,
 ) -> Generator[Step, None, T]:
-    """Yield steps of a mesh with hexes (m, 8), as infeasible ones while a figure is lower than one that is kept."""
+    """Yield steps of a mesh with hexes (m, 8); a step is infeasible while a figure is below its kept value."""
     if kept is None:
         return (yield from steps)
     while True:

@@ -40,7 +40,7 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
         offset_depth(self.actors[0].GetMapper(), polygons=_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
-        """Draw the whole surface without its edges, of which there are many; an unchanged one is not rebuilt."""
+        """Draw the whole surface without its many edges; an unchanged surface is not rebuilt."""
         target = frame.mesh.target
         if target is None:
             self.hide()

@@ -1,1 +1,1 @@
-"""Start of the optimum of shape from that of a coarser mesh."""
+"""Nested iteration: the optimum of a coarser mesh as the start of the optimum of shape."""

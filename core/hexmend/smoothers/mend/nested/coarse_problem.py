@@ -16,7 +16,7 @@ from hexmend.mesh.topology.refinement import Refinement, find_refinement
 
 @dataclass(frozen=True, eq=False)
 class CoarseProblem:
-    """The mesh of which a mesh is a refinement, with the constraints of those of its nodes that it has.
+    """Coarse mesh behind a refined mesh, with the constraints of the nodes that both have.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class CoarseProblem:
         return as_immutable_owned(points)
 
     def _constrained(self, points: np.ndarray) -> np.ndarray:
-        """Return points (n, 3) of which those that stay are where they were, and linear constraints are kept."""
+        """Return points (n, 3) with fixed nodes put back in place and linear constraints satisfied."""
         fixed = self.fine.mesh.fixed
         points[fixed] = self.fine.mesh.points[fixed]
         return self.fine.mesh.constrained(points)

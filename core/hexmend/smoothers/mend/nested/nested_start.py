@@ -1,4 +1,4 @@
-"""Nested iteration: the optimum of shape begins at that of a coarser mesh, where the mesh is a refinement.
+"""Nested iteration: on a refined mesh, the optimum of shape begins at the optimum of the coarser mesh.
 
 A step moves a node by a few edges, so that the number of steps doubles with each refinement where nodes have to move
 far. On the coarse mesh the same way is half as many edges, and a step costs an eighth.
@@ -58,7 +58,7 @@ NESTED = NestedConfig()
 def nested_start(
     mesh: Mesh, energy: MeshEnergy, optimise: Optimise, harms: Harms, config: NestedConfig = NESTED
 ) -> Generator[Step, None, np.ndarray]:
-    """Find where the optimum of shape begins: at the given points, or at those of the coarse optimum.
+    """Find the start of the optimum of shape: the given points, or the refined optimum of the coarse mesh.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def nested_start(
 def _coarse_optimum(
     problem: CoarseProblem, energy: MeshEnergy, optimise: Optimise, config: NestedConfig
 ) -> Generator[Step, None, np.ndarray]:
-    """Go to the optimum of the coarse mesh, and return its points (c, 3); the steps are those of the fine mesh."""
+    """Go to the optimum of the coarse mesh, and return its points (c, 3); the steps describe the fine mesh."""
     steps = optimise(problem.mesh, problem.energy)
     while True:
         try:
