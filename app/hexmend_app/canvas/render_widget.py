@@ -160,7 +160,8 @@ class RenderWidget(QOpenGLWidget):
         if scissors:
             window.GetState().vtkglDisable(_SCISSORS)
             gl.glDisable(_SCISSORS)
-        window.BlitDisplayFramebuffer(0, 0, 0, *window.GetSize(), 0, 0, *pixels, _COLOURS, _LINEAR)
+        rectangles = 0, 0, *window.GetSize(), 0, 0, *pixels  # left, bottom, width, height of source and destination
+        window.BlitDisplayFramebuffer(0, *rectangles, _COLOURS, _LINEAR)
         gl.glColorMask(False, False, False, True)
         gl.glClearColor(0.0, 0.0, 0.0, 1.0)
         gl.glViewport(0, 0, *pixels)

@@ -171,9 +171,9 @@ class Band:
         if judged is None or judged.max_deviation != self.max_deviation:
             return np.ones(len(self.samples), dtype=bool), np.ones(len(self.target_samples), dtype=bool)
         boundary, surface = (np.empty(len(marks), dtype=bool) for marks in (judged.boundary, judged.surface))
-        where = self.samples, self._faces, self.skin.faces_of_pieces, judged.pieces
-        marks = judged.boundary, judged.surface, boundary, surface
-        closest_point.moved_samples(points, judged.points, *where, *marks)
+        samples = closest_point.BandSamples(self.samples, self._faces, self.skin.faces_of_pieces, judged.pieces)
+        before = judged.boundary, judged.surface
+        closest_point.moved_samples(samples, points, judged.points, *before, boundary, surface)
         return boundary, surface
 
     @property

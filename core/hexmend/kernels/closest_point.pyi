@@ -86,14 +86,21 @@ def samples_beyond(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3
     positions.
     """
 
-def moved_samples(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], earlier: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boundary_samples: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], face_of_piece: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], surface_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')], surface: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before,
-    and those of which a node differs between points and earlier, both (n, 3).
+class BandSamples:
+    """Samples of a boundary and of the surface on which it slides."""
 
-    Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the
-    face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;
-    numbers must exist.
+    def __init__(self, boundary: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], face_of_piece: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        A sample of the boundary is the mean of four nodes, boundary (s, 4) int32. A sample of the surface is
+        near to one of pieces (t,) int32, -1 for none, of a face of the boundary, faces (f, 4) int32 by
+        face_of_piece (p,) int64. Numbers must exist.
+        """
+
+def moved_samples(samples: BandSamples, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], earlier: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boundary_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], surface_before: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], boundary: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')], surface: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Mark samples of the boundary, boundary (s,) bool, and of the surface, surface (t,) bool: the samples marked
+    before, and those with a node that differs between points and earlier, both (n, 3). The nodes of a sample of
+    the surface are the nodes of the face near to it.
     """
 
 def numbers_of_different_points(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

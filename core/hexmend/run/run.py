@@ -191,9 +191,10 @@ class Run(Iterator[Iteration]):
     def recipe(self) -> Recipe:
         """Recipe that repeats the run, with the stages still to come."""
         own = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
-        done = [stage for stage in (*own, self._stage_run.as_stage()) if stage is not None]
+        stages = (*own, self._stage_run.as_stage(), *self._remaining_stages)
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        return Recipe.of(*done, *self._remaining_stages, title=title, rules=self.mesh.node_rules.rules)
+        begun = (stage for stage in stages if stage is not None)
+        return Recipe.of(*begun, title=title, rules=self.mesh.node_rules.rules)
 
     @property
     def message(self) -> str:
@@ -296,8 +297,7 @@ class Run(Iterator[Iteration]):
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        later = [stage.smoother for stage in self._remaining_stages]
-        return self._shapes.layers_message(*(one.smoother for one in self._stage_runs), *later)
+        return self._shapes.layers_message([stage.smoother for stage in (*self._stage_runs, *self._remaining_stages)])
 
     @property
     def _target(self) -> Target | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -62,7 +63,7 @@ class ShapeWatch:
         before, after = (measure_against_target(mesh, one.points, one.quality).q for one in (start, best))
         return float(before.min()), float(after.min())
 
-    def layers_message(self, *smoothers: Smoother) -> str:
+    def layers_message(self, smoothers: Sequence[Smoother]) -> str:
         """The layers that were found and whether the methods of a run keep them, as a sentence; "" without layers."""
         layers = self.layers_of(smoothers[0])
         keep = [smoother.keeps_layers for smoother in smoothers]
@@ -83,7 +84,7 @@ class ShapeWatch:
         """
         losses = describe_losses(walls)
         if losses or (smoother.keeps_layers and walls):
-            return losses or self.layers_message(smoother)
+            return losses or self.layers_message([smoother])
         if result is None or result.element_target is not None:
             return ""
         return grading_message(self._mesh, result, self._quality)

@@ -64,22 +64,19 @@ void bind_closest_point(nb::module_ m) {
         "from their trees, whose points have moved.\n\n"
         "Boxes are written where a search is needed. Points that are found become the near ones, without their\n"
         "positions.");
+    nb::class_<BandSamples>(m, "BandSamples", "Samples of a boundary and of the surface on which it slides.")
+        .def(ViewOf<std::span<const std::array<Node, 4>>, std::span<const std::array<Node, 4>>,
+                    std::span<const std::int64_t>, Indices>(),
+             "boundary"_a, "faces"_a, "face_of_piece"_a, "pieces"_a,
+             "A sample of the boundary is the mean of four nodes, boundary (s, 4) int32. A sample of the surface is\n"
+             "near to one of pieces (t,) int32, -1 for none, of a face of the boundary, faces (f, 4) int32 by\n"
+             "face_of_piece (p,) int64. Numbers must exist.");
     m.def(
-        "moved_samples",
-        [](Points points, Points earlier, std::span<const std::array<Node, 4>> boundary_samples,
-           std::span<const std::array<Node, 4>> faces, std::span<const std::int64_t> face_of_piece, Indices pieces,
-           std::span<const bool> boundary_before, std::span<const bool> surface_before, std::span<bool> boundary,
-           std::span<bool> surface) {
-            moved_samples({boundary_samples, faces, face_of_piece, pieces}, points, earlier, boundary_before,
-                          surface_before, boundary, surface);
-        },
-        "points"_a, "earlier"_a, "boundary_samples"_a, "faces"_a, "face_of_piece"_a, "pieces"_a, "boundary_before"_a,
-        "surface_before"_a, "boundary"_a, "surface"_a, ReleaseGil(),
-        "Mark samples of a boundary, boundary (s,) bool, and of a surface, surface (t,) bool: those marked before,\n"
-        "and those of which a node differs between points and earlier, both (n, 3).\n\n"
-        "Nodes of samples of the boundary are rows of boundary_samples (s, 4), those of the surface the nodes of the\n"
-        "face, of faces (f, 4), on which pieces (t,) lie, -1 for none, by face_of_piece (p,) int64. Others are int32;\n"
-        "numbers must exist.");
+        "moved_samples", &moved_samples, "samples"_a, "points"_a, "earlier"_a, "boundary_before"_a, "surface_before"_a,
+        "boundary"_a, "surface"_a, ReleaseGil(),
+        "Mark samples of the boundary, boundary (s,) bool, and of the surface, surface (t,) bool: the samples marked\n"
+        "before, and those with a node that differs between points and earlier, both (n, 3). The nodes of a sample of\n"
+        "the surface are the nodes of the face near to it.");
     m.def("numbers_of_different_points", &numbers_of_different_points, "points"_a, ReleaseGil(),
           "The number (n,) int32 of each of points (n, 3) among the different ones, in the order in which they first\n"
           "appear.");

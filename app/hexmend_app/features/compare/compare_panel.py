@@ -109,11 +109,12 @@ class ComparePanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        buttons = (self._run, self.cancel_button, self.wipe_button, self._use, self.save_button)
+        row = (self._run, self.cancel_button, None, self.wipe_button, self._use, self.save_button)
+        buttons = [button for button in row if button is not None]
         height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
         for button in buttons:
             button.setFixedHeight(height)
-        head = fill(QHBoxLayout(), *buttons[:2], None, *buttons[2:], spacing=4)
+        head = fill(QHBoxLayout(), *row, spacing=4)
         fill(QVBoxLayout(self), head, (self._table, 1), self._status, margins=(8, 4, 8, 4), spacing=4)
 
     def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:

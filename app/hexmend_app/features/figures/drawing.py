@@ -43,19 +43,19 @@ def prepare(folder: Path, scene: Scene, recipes: Mapping[str, Recipe]) -> None:
 
 
 def draw(
-    folder: str | Path,
+    folder: Path,
     title: str,
     mesh: str,
     scene: Scene,
     versions: Sequence[NamedVersion],
     recipes: Mapping[str, Recipe],
-    file: str = "MESH",
+    file: Path | None,
 ) -> Generator[Figure]:
     """Write and yield figure by figure, then write captions and commands.
 
     Parameters
     ----------
-    folder : path-like
+    folder : Path
         Has been prepared.
     title : str
         Title above the captions.
@@ -67,16 +67,23 @@ def draw(
         Meshes to compare, the mesh as opened first.
     recipes : mapping of str to Recipe
         Recipes that make them from the first mesh, by file name.
-    file : str
-        Name of the mesh file in the commands that reproduce the figures.
+    file : Path or None
+        File of the mesh, for the commands that reproduce the figures.
     """
-    folder, figures = Path(folder), []
+    figures = []
     case = Case(mesh, None, tuple(map(version_of, versions)))
     for figure in write_figures(case, folder, Style(scene, formats=_FORMATS)):
         figures.append(figure)
         yield figure
     methods = ",".join(str(folder / name) for name in recipes) or "none"
-    arguments = ["figures", file, "--methods", methods, "--scene", str(folder / "scene.toml")]
+    arguments = [
+        "figures",
+        "MESH" if file is None else str(file),
+        "--methods",
+        methods,
+        "--scene",
+        str(folder / "scene.toml"),
+    ]
     arguments += ["--format", ",".join(_FORMATS), "-o", str(folder), "--only"]
     write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
 

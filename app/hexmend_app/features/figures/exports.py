@@ -64,9 +64,8 @@ def figure_set(session: Session, scene: Scene, folder: Path, stem: str) -> Expor
     recipes = recipes_of(session)
     prepare(folder, scene, recipes)
     versions = versions_of(session)
-    arguments = folder, stem, document.now.mesh.name, scene, versions, recipes
-    file = () if document.path is None else (str(document.path),)
-    return Export(draw(*arguments, *file), _drawn(list(PARTS), versions), folder.name)
+    steps = draw(folder, stem, document.now.mesh.name, scene, versions, recipes, document.path)
+    return Export(steps, _drawn(list(PARTS), versions), folder.name)
 
 
 def report(session: Session, scene: Scene, path: Path, stem: str) -> Export:
@@ -74,9 +73,9 @@ def report(session: Session, scene: Scene, path: Path, stem: str) -> Export:
     document = session.document
     prepare_report(path)
     name, versions = document.now.mesh.name, versions_of(session)
-    arguments = path, tr("Report on {name}", name=name or stem), name, stationary(scene), versions
-    file = () if document.path is None or not document.path.exists() else (str(document.path),)
-    return Export(draw_report(*arguments, *file), _drawn(FIGURES, versions), path.name)
+    file = document.path if document.path is not None and document.path.exists() else None
+    steps = draw_report(path, tr("Report on {name}", name=name or stem), name, stationary(scene), versions, file)
+    return Export(steps, _drawn(FIGURES, versions), path.name)
 
 
 def _drawn(figures: Sequence[str], versions: Sequence[NamedVersion]) -> list[str]:
@@ -100,13 +99,13 @@ def prepare_report(path: Path) -> None:
 
 
 def draw_report(
-    path: str | Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: str = ""
+    path: Path, title: str, mesh: str, scene: Scene, versions: Sequence[NamedVersion], file: Path | None
 ) -> Generator[Figure]:
     """Yield figure by figure, then write the report, HTML or PDF by the suffix.
 
     Parameters
     ----------
-    path : path-like
+    path : Path
     title : str
     mesh : str
         Name of the mesh.
@@ -114,12 +113,11 @@ def draw_report(
         Camera, cut and colours of the pictures.
     versions : sequence of NamedVersion
         Meshes to compare, the mesh as opened first.
-    file : str
-        File of the mesh; "" for none.
+    file : Path or None
+        File of the mesh.
     """
-    path = Path(path)
     interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
-    source = Source.of(file) if file else None
+    source = None if file is None else Source.of(str(file))
     case = Case(mesh, source, tuple(map(version_of, versions)), stop=None)
     style = Style(replace(scene, page=replace(scene.page, dpi=_DPI)))
     chapter = yield from draw_chapter(case, style, [], interactive=interactive)

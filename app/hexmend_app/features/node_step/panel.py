@@ -46,6 +46,8 @@ _LEGEND = (
     ),
     ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
+    ("after", OTHERWISE, "Edges at the node after the step."),
+    ("before", OTHERWISE, "Edges at the node before the step."),
 )
 _NO_PLOT = "No plot: along the direction, the energy changes by rounding only."
 
@@ -99,14 +101,12 @@ class NodePanel(QWidget):
 
     def _make_legend(self) -> QWidget:
         row = QWidget()
-        entries = [legend_entry(tr(text), role) for text, role, _ in _LEGEND]
-        for entry, (text, _, help) in zip(entries, _LEGEND, strict=True):
-            set_help(entry, tr(text), tr(help))
-        self._edges = {name: legend_entry(tr(name), OTHERWISE) for name in ("after", "before")}  # one of them is shown
-        set_help(self._edges["after"], tr("after"), tr("Edges at the node after the step."))
-        set_help(self._edges["before"], tr("before"), tr("Edges at the node before the step."))
+        entries = {text: legend_entry(tr(text), role) for text, role, _ in _LEGEND}
+        for text, _, help in _LEGEND:
+            set_help(entries[text], tr(text), tr(help))
+        self._edges = {name: entries[name] for name in ("after", "before")}  # one of them is shown
         row.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        fill(QHBoxLayout(row), *entries, *self._edges.values(), None, margins=(0, 0, 0, 0), spacing=4)
+        fill(QHBoxLayout(row), *entries.values(), None, margins=(0, 0, 0, 0), spacing=4)
         return row
 
     def _lay_out(self) -> None:

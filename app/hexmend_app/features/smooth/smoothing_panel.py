@@ -83,8 +83,9 @@ class SmoothingPanel(QWidget):
         # Reserve the height, so that nothing below moves when the sentence changes.
         self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())
 
-        status = (self.buttons, self._progress, self._sentence, stage.help)  # the help's height depends on the method
-        fill(QVBoxLayout(self), method_row, *status, *self._sections, None, margins=(0, 0, 0, 0), spacing=4)
+        # The height of the help depends on the method: what stands above it stays where it is.
+        rows = (method_row, self.buttons, self._progress, self._sentence, stage.help, *self._sections)
+        fill(QVBoxLayout(self), *rows, None, margins=(0, 0, 0, 0), spacing=4)
         self.set_state("idle")
         self.set_status()
         self.stage.edited.connect(self._on_edited)

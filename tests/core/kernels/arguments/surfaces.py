@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.kernels.closest_point import (
+    BandSamples,
     BoxTrees,
     ClosestPointCache,
     NearPoints,
@@ -62,9 +63,11 @@ def _samples() -> Iterator[Row]:
     yield row("closest_point.NearPoints", piece=j, weights=j, places=j, roots=j)
     yield row("closest_point.means_beyond", "points", trees=BoxTrees(**given), samples=faces[:j], beyond=j, **query)
     yield row("closest_point.samples_beyond", "points pieces", x=j, **query, **given)
-    on_faces = {"boundary_samples": faces, "faces": faces, "face_of_piece": 4 * f, "pieces": j}
+    on_faces = {"boundary": faces, "faces": faces, "face_of_piece": 4 * f, "pieces": j}
+    yield row("closest_point.BandSamples", "faces face_of_piece", "boundary pieces", **on_faces)
+    samples = BandSamples(faces, faces, np.zeros(4 * f, np.int64), roots)
     marks = {"boundary_before": f, "surface_before": j, "boundary": f, "surface": j}
-    yield row("closest_point.moved_samples", "faces face_of_piece", earlier=n, **on_faces, **marks)
+    yield row("closest_point.moved_samples", samples=samples, points=n, earlier=n, **marks)
 
 
 def _points_and_edges() -> Iterator[Row]:

@@ -49,11 +49,15 @@ class Part:
 
     def merged(self, other: Part) -> Part:
         """Return a part with the data of both."""
-        names = ("node_ids", "points", "element_cards")
-        lists = [getattr(self, name) + getattr(other, name) for name in names]
-        sets = [merged_sets(getattr(self, name), getattr(other, name)) for name in ("node_sets", "element_sets")]
-        surfaces = {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()}
-        return Part(self.name, *lists, *sets, self.surfaces | surfaces)
+        return Part(
+            self.name,
+            self.node_ids + other.node_ids,
+            self.points + other.points,
+            self.element_cards + other.element_cards,
+            merged_sets(self.node_sets, other.node_sets),
+            merged_sets(self.element_sets, other.element_sets),
+            self.surfaces | {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()},
+        )
 
 
 @dataclass(eq=False)
