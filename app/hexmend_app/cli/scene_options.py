@@ -12,8 +12,8 @@ from hexmend_app.codec.config_table import decode, encode
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.picture import CutKind, Plane, Range, Scene
 from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.layer_switch import ordered_layers
-from hexmend_app.picture.quantities import colour_quantity
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 

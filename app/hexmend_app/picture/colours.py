@@ -1,16 +1,40 @@
-"""Colours of the hexes as values without Qt and VTK."""
+"""Colours of the hexes, and the quantities that they show, as values without Qt and VTK."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 
 from hexmend.errors import ParameterError
+from hexmend.quality import METRICS, HexQuantity
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import option
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
-from hexmend_app.picture.quantities import colour_quantities
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend_app.picture.visibility import known_metric
+
+#: The material of a hex; its values are names, each with a colour of its own.
+MATERIAL = HexQuantity(
+    name="material",
+    title="Material",
+    formula="block, set, physical volume or region that holds the hex",
+    source="the file of the mesh",
+    full_range=(-math.inf, math.inf),
+    acceptable=(-math.inf, math.inf),
+    better=0,
+    meaning="Hexes of the same material have the same colour.",
+)
+
+
+def colour_quantities() -> dict[str, HexQuantity]:
+    """Return all quantities by name: quality metrics, displacements, and the material."""
+    return {**METRICS, **DISPLACEMENT_QUANTITIES, MATERIAL.name: MATERIAL}
+
+
+def colour_quantity(name: str) -> HexQuantity:
+    """Return the quantity of a name; raises `ParameterError` for an unknown one."""
+    return MATERIAL if name == MATERIAL.name else hex_quantity(name)
 
 
 class Range(StrEnum):

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from hexmend_app.picture import Camera, Colours, Cut, DepthUnit, Plane, Slab
 from hexmend_app.picture.camera_pose import Vector
+from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.cut import CutStyle
-from hexmend_app.picture.quantities import colour_quantity
 from hexmend_app.scene.camera.directions import direction_of
 
 _AXES = "xyz"

@@ -1,22 +1,39 @@
-"""Lookup of the format of a file, by its place, suffix and content."""
+"""Lookup of the format of a file, by its place, suffix and content, among ours and those of other distributions."""
 
 from __future__ import annotations
 
 import os
 from codecs import BOM_UTF8
 from collections.abc import Iterable, Iterator
+from functools import cache
 from itertools import count
 from pathlib import Path
 from typing import NoReturn
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.base.plugins import plugin_formats
+from hexmend.registry import load_entry_points
 
+#: Entry-point group of the formats of other distributions; its entries name a `Format`.
+_ENTRY_POINTS = "hexmend.formats"
 #: Bytes from which the format of a file is recognised.
 _HEAD = 4096
 #: First bytes of compressed files, by the program that compresses.
 _COMPRESSIONS = {"gzip": b"\x1f\x8b", "bzip2": b"BZh", "xz": b"\xfd7zXZ\0", "zstd": b"\x28\xb5\x2f\xfd"}
+
+
+@cache
+def plugin_formats() -> tuple[Format, ...]:
+    """Load the formats of other distributions, such as those that need VTK, once; a failure is logged as a warning."""
+    found: list[Format] = []
+
+    def take(name: str, format: object) -> None:
+        if not isinstance(format, Format):
+            raise TypeError(f"{format!r} is not a hexmend.io.Format")
+        found.append(format)
+
+    load_entry_points(_ENTRY_POINTS, "format", take)
+    return tuple(found)
 
 
 def every_format() -> tuple[Format, ...]:

@@ -12,9 +12,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidg
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.appearance.map_box import MapBox
-from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.colours import MATERIAL, Colours, Range, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
-from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import WORSE

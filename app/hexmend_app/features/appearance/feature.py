@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
+from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
-from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase

@@ -9,9 +9,8 @@ import numpy as np
 
 from hexmend.quality import ElementQuality
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
-from hexmend_app.picture.colours import Colours, Range
+from hexmend_app.picture.colours import MATERIAL, Colours, Range, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, ROUNDING
-from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.material_colours import material_table
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme import palette

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
-from hexmend_app.picture.quantities import MATERIAL
 from hexmend_app.scene.colour.colouring import Colouring, fitted, invalid_kinds, resolve
 from hexmend_app.scene.colour.material_colours import material_names, material_values
 from hexmend_app.scene.views.frame import Frame

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.quality import METRICS
-from hexmend_app.picture.colours import Range
-from hexmend_app.picture.quantities import colour_quantity
+from hexmend_app.picture.colours import Range, colour_quantity
 from hexmend_app.picture.visibility import Show
 
 #: Metrics that are positive for hexes that are not inverted, and for no others.

@@ -10,8 +10,8 @@ import numpy as np
 
 from hexmend.errors import ParameterError
 from hexmend_app.picture import Captions, PicturePanel, Scene, TextPlace
+from hexmend_app.picture.colours import MATERIAL, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
-from hexmend_app.picture.quantities import MATERIAL, colour_quantity
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.colour.material_colours import material_names, material_table
 from hexmend_app.scene.page.lettering import Lettering

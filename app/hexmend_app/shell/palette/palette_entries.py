@@ -14,7 +14,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
-from hexmend_app.picture.quantities import colour_quantities
+from hexmend_app.picture.colours import colour_quantities
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.translation import tr

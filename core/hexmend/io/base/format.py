@@ -108,7 +108,7 @@ class Format:
 
 
 FORMATS: Registry[Format] = Registry("format")
-"""Formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`."""
+"""Formats of Hexmend by name; those of other distributions are in `hexmend.io.format_lookup`."""
 
 
 def deferred(function: str) -> Callable[..., Any]:

@@ -7,7 +7,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.base.plugins import plugin_formats
+from hexmend.io.format_lookup import plugin_formats
 
 HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
 POINTS = "POINTS 8 {}\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
