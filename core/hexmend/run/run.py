@@ -297,7 +297,8 @@ class Run(Iterator[Iteration]):
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        return self._shapes.layers_message([stage.smoother for stage in (*self._stage_runs, *self._remaining_stages)])
+        stages = [*(one.stage for one in self._stage_runs), *self._remaining_stages]
+        return self._shapes.layers_message([stage.smoother for stage in stages])
 
     @property
     def _target(self) -> Target | None:
