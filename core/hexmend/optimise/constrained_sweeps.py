@@ -17,12 +17,10 @@ from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
+from hexmend.optimise.search_direction import LEAST_EIGENVALUE
 
 #: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).
 NodeDirections: TypeAlias = Callable[[np.ndarray, np.ndarray, np.ndarray, float], np.ndarray]
-
-#: Share of the largest eigenvalue to which smaller ones are raised (A.4).
-_LEAST_EIGENVALUE = 1e-3
 
 
 def steepest_descents(values: np.ndarray, gradients: np.ndarray, hessians: np.ndarray, p: float) -> np.ndarray:
@@ -33,7 +31,7 @@ def steepest_descents(values: np.ndarray, gradients: np.ndarray, hessians: np.nd
 def newton_steps(values: np.ndarray, gradients: np.ndarray, hessians: np.ndarray, p: float) -> np.ndarray:
     """Algorithm A.4 for single nodes: Newton's steps with the small eigenvalues of the Hessians raised."""
     eigenvalues, vectors = np.linalg.eigh(hessians)
-    least = _LEAST_EIGENVALUE * np.abs(eigenvalues).max(axis=1, keepdims=True)
+    least = LEAST_EIGENVALUE * np.abs(eigenvalues).max(axis=1, keepdims=True)
     least = np.maximum(least, np.finfo(float).tiny)
     along = np.einsum("kij,ki->kj", vectors, gradients) / np.maximum(eigenvalues, least)
     return -np.einsum("kij,kj->ki", vectors, along)

@@ -12,6 +12,9 @@ from hexmend.energy.assembled_hessian import AssembledHessian, CGResult, unpack_
 from hexmend.optimise.blas_threads import one_blas_thread
 from hexmend.optimise.linear_solvers import LinearSolver
 
+#: Share of the greatest eigenvalue to which lower ones are raised: a thousandth, by Algorithm A.4.
+LEAST_EIGENVALUE = 1e-3
+
 
 @dataclass(frozen=True)
 class SearchDirection:
@@ -229,8 +232,8 @@ class ModifiedNewton:
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         least, greatest = extreme_eigenvalues(hessian)
-        if least < 0.001 * greatest:
-            hessian = hessian.shifted(0.001 * greatest - least)
+        if least < LEAST_EIGENVALUE * greatest:
+            hessian = hessian.shifted(LEAST_EIGENVALUE * greatest - least)
         return Newton(self.solver)(value, gradient, hessian)
 
 
