@@ -20,8 +20,6 @@ from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
 
 #: Largest sagitta of a chord between the points of divided edges, in lengths of the edges.
 _MAX_SAGITTA = 1e-3
-#: Most divisions of an edge: a face has 4 * 8^2 triangles then.
-_MAX_DIVISIONS = 8
 #: Most quads of divided faces, of which each takes about 850 bytes, unless two divisions of an edge make more.
 _MAX_QUADS = 1 << 18
 
@@ -53,7 +51,7 @@ def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> P
     sagitta = np.linalg.norm(nodes[:, 4:8] - (ends + after) / 2, axis=2)
     length = np.linalg.norm(after - ends, axis=2)
     share = float((sagitta / np.where(length > 0, length, np.inf)).max(initial=0.0))
-    most = min(_MAX_DIVISIONS, max(2, isqrt(_MAX_QUADS // max(len(faces), 1))))
+    most = max(2, isqrt(_MAX_QUADS // max(len(faces), 1)))
     divisions = int(min(np.ceil(np.sqrt(share / _MAX_SAGITTA)), most))
     if divisions < 2:
         return PartitionedSurface(points, boundary)
