@@ -74,16 +74,16 @@ class Boundary:
 
     def with_corners(self, nodes: np.ndarray) -> Boundary:
         """Return the boundary with some nodes (k,) as corners; curves and patches stay as they are."""
-        node_class, component = self.node_class.copy(), self.component.copy()
-        nodes = nodes[node_class[nodes] != NodeClass.INSIDE]
-        node_class[nodes], component[nodes] = NodeClass.CORNER, -1
-        return replace(self, node_class=node_class, component=component)
+        return self._with_class(nodes[self.node_class[nodes] != NodeClass.INSIDE], NodeClass.CORNER)
 
     def without_nodes(self, nodes: np.ndarray) -> Boundary:
         """Return the boundary with some nodes (k,) inside: they move freely, whatever their curve or patch."""
-        node_class, component = self.node_class.copy(), self.component.copy()
-        node_class[nodes], component[nodes] = NodeClass.INSIDE, -1
-        return replace(self, node_class=node_class, component=component)
+        return self._with_class(nodes, NodeClass.INSIDE)
+
+    def _with_class(self, nodes: np.ndarray, node_class: NodeClass) -> Boundary:
+        classes, component = self.node_class.copy(), self.component.copy()
+        classes[nodes], component[nodes] = node_class, -1
+        return replace(self, node_class=classes, component=component)
 
     def with_faces(self, which: np.ndarray) -> Boundary:
         """Return the boundary with some of its faces (k,) bool alone; nodes, curves and patches stay as they are."""

@@ -57,7 +57,7 @@ class NearPoints:
         (count,) bool
             False for samples that are not examined.
         """
-        self._places_on(trees)
+        self._move_places(trees)
         beyond = np.empty(len(nodes), dtype=bool)
         closest_point.means_beyond(trees.box_trees, points, nodes, examined, limits, self._kernel, beyond)
         return beyond
@@ -93,10 +93,9 @@ class NearPoints:
     def _kernel(self) -> closest_point.NearPoints:
         return closest_point.NearPoints(self.pieces, self._weights, self._places, self.roots)
 
-    def _places_on(self, trees: ClosestPointTrees) -> np.ndarray:
-        """Return the positions of all points on trees, (count, 3); infinite where there is none."""
+    def _move_places(self, trees: ClosestPointTrees) -> None:
+        """Move the places of all points, (count, 3), with their pieces of trees; infinite where there is none."""
         if self._points is not trees.points:
             corners = trees.points[trees.pieces[self.pieces]]
             self._points, self._places = trees.points, np.einsum("ki,kij->kj", self._weights, corners)
             self._places[self.pieces < 0] = np.inf
-        return self._places

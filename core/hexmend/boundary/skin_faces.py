@@ -74,9 +74,7 @@ def _node_lines(mesh: Mesh) -> list[np.ndarray]:
     """Marks, (n,) bool, of the nodes of each node set that holds two nodes of the boundary and no whole face of it."""
     found, faces, boundary = [], mesh.topology.boundary_faces, mesh.topology.boundary
     for nodes in mesh.node_sets.values():
-        marks = np.zeros(mesh.n_nodes, dtype=bool)
-        marks[nodes] = True
-        marks &= boundary
+        marks = mask(nodes, mesh.n_nodes) & boundary
         if np.count_nonzero(marks) > 1 and not marks[faces].all(axis=1).any():
             found.append(marks)
     return found
@@ -89,8 +87,7 @@ def lone_set_nodes(mesh: Mesh) -> np.ndarray:
         nodes = np.unique(nodes)
         nodes = nodes[mesh.topology.boundary[nodes]]
         if 0 < nodes.size < mesh.topology.n:
-            marks = np.zeros(mesh.n_nodes, dtype=bool)
-            marks[nodes] = True
+            marks = mask(nodes, mesh.n_nodes)
             rings = mesh.topology.rings
             at = np.repeat(np.arange(nodes.size), rings.start[nodes + 1] - rings.start[nodes])
             neighbours = np.bincount(at, marks[rings.of(nodes)], minlength=nodes.size)
