@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.edges import segment_pairs
+from hexmend.boundary.tolerances import ROUNDING
 from hexmend.kernels import closest_point
 
 
@@ -110,3 +111,9 @@ def unit_vectors(vectors: np.ndarray) -> np.ndarray:
     """Normalise vectors (..., 3); those of length 0 stay 0."""
     size = row_norms(vectors)[..., None]
     return vectors / np.where(size > 0, size, 1.0)
+
+
+def directions_of_means(means: np.ndarray, otherwise: np.ndarray) -> np.ndarray:
+    """Normalise means of unit vectors, (k, 3); opposed vectors, whose mean is 0, have the directions `otherwise`."""
+    size = row_norms(means)[:, None]
+    return np.where(size > ROUNDING, means / np.maximum(size, ROUNDING), otherwise)

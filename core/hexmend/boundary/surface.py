@@ -9,15 +9,14 @@ import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
-from hexmend.boundary.normals import PieceDirections
+from hexmend.boundary.normals import PieceDirections, directions_of_means
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface
 
 #: A point is inside a triangle or segment if all its weights there exceed this; its tangent is then that of the
-#: triangle or segment, else one interpolated between vertices.
+#: triangle or segment, else one interpolated between vertices. Methods take more steps if only points on the rim count
+#: as outside.
 _INTERIOR_WEIGHT = 1e-3
-#: Interpolated normals shorter than this have no direction: the vertex normals are opposed.
-_MIN_MEAN_NORMAL = 1e-6
 
 
 class PartitionedSurface:
@@ -145,8 +144,7 @@ class PartitionedSurface:
         if not smooth:
             return flat
         mean = np.einsum("ki,kij->kj", found.weights, self._directions.smooth[given])
-        size = np.linalg.norm(mean, axis=1, keepdims=True)
-        return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), flat)
+        return directions_of_means(mean, flat)
 
     def tangent_bases(self, found: ClosestPoints, of_curve: np.ndarray) -> np.ndarray:
         """Compute orthonormal directions at closest points in which nodes may move.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::int64_t NODES_PER_CHUNK = 1024;
 
-// Interpolated directions shorter than this count as none: those at the corners are opposed.
-constexpr double LEAST_MEAN = 1e-6;
+// Interpolated directions shorter than this are rounding: those at the corners are opposed. As ROUNDING in Python.
+constexpr double LEAST_MEAN = 1e-7;
 
 V3<double> over(const V3<double> &a, double size) { return {a.x / size, a.y / size, a.z / size}; }
 

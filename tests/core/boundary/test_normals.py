@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary.classification import NodeClass, boundary_of
-from hexmend.boundary.normals import curve_tangents, segment_tangents, unit_vectors, vertex_normals
+from hexmend.boundary.normals import curve_tangents, directions_of_means, segment_tangents, unit_vectors, vertex_normals
 from tests.core.boundary.solids import cylinder
 
 
@@ -51,3 +51,8 @@ def test_normals_of_vertices_are_means_weighted_by_angles_over_their_own_patch(p
     expected = weighted_by_angles(vertices, triangles, patch)
     np.testing.assert_allclose(vertex_normals(vertices, triangles, patch), expected, atol=1e-9)
     assert (np.diff(np.sort(triangles), axis=1) == 0).any()  # some have no area
+
+
+def test_means_of_opposed_vectors_have_the_direction_that_is_given_for_them():
+    means, otherwise = np.array([[0, 0, 0.5], [0, 0, 1e-16]]), np.array([[1.0, 0, 0], [0, 1.0, 0]])
+    np.testing.assert_array_equal(directions_of_means(means, otherwise), [[0, 0, 1], [0, 1, 0]])

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import row_norms
 from hexmend.boundary.classification import NodeClass
 from hexmend.boundary.closest_point import ClosestPointCache
+from hexmend.boundary.normals import directions_of_means
 from hexmend.boundary.sliding.sliding_boundary import SlidingBoundary
-
-#: Mean of the unit normals at the corners of a quad whose length is below this has no reliable direction.
-_MIN_MEAN_NORMAL = 0.25
 
 
 class QuadNormals:
@@ -52,10 +49,7 @@ class QuadNormals:
         at, outward = self._quads, self._outward[self._quads]
         found = self._cache.closest(points[self._faces[at].ravel()])
         mean = self._surface.directions(found).reshape(-1, 4, 3).mean(axis=1)
-        size = row_norms(mean)[:, None]
         side = np.where(np.einsum("fi,fi->f", mean, outward) < 0, -1, 1)  # triangles of a file may face either way
         normals = self._outward.copy()
-        normals[at] = np.where(
-            size > _MIN_MEAN_NORMAL, side[:, None] * mean / np.maximum(size, _MIN_MEAN_NORMAL), outward
-        )
+        normals[at] = directions_of_means(side[:, None] * mean, outward)
         return normals
