@@ -7,17 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import extent, mask, row_norms
+from hexmend.arrays import mask, row_norms
 from hexmend.boundary.boundary_samples import samples_of_faces
 from hexmend.boundary.cell_extremes import extremes_in_cells
 from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
+from hexmend.boundary.tolerances import ROUNDING
 from hexmend.kernels import closest_point
 from hexmend.mesh.topology.marked_rows import any_of_rows
 
-#: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
-_ROUNDING = 1e-9
 NO_NODES = np.empty(0, dtype=np.int64)
 
 
@@ -85,9 +84,7 @@ class Band:
         self._first: ClosestPoints | None = None  # points of the boundary closest to `target_samples` at first
         self._judged: _Judged | None = None  # by the last call of `nodes_outside_band`
         self._known_limits: tuple[float, tuple[np.ndarray, np.ndarray]] | None = None  # and the width they are for
-        corners = points[faces.ravel()]
-        size = float(np.linalg.norm(extent(corners))) if corners.size else 0.0
-        self.max_deviation = max(max_deviation, _ROUNDING * size)
+        self.max_deviation = max_deviation
 
     @cached_property
     def skin(self) -> SkinSurface:
@@ -182,9 +179,16 @@ class Band:
         known = self._known_limits  # one read, as another thread may replace it
         if known is None or known[0] != self.max_deviation:
             initial = self._initial_boundary_deviation, self.initial_surface_deviation.distances
-            limits = tuple(np.maximum(one, self.max_deviation) * (1 + _ROUNDING) for one in initial)
+            width = max(self.max_deviation, ROUNDING * self._edge_length)
+            limits = tuple(np.maximum(one, width) * (1 + ROUNDING) for one in initial)
             known = self._known_limits = self.max_deviation, limits
         return known[1]
+
+    @cached_property
+    def _edge_length(self) -> float:
+        """Mean length of the edges of the boundary before sliding."""
+        lengths = row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0])
+        return float(lengths.mean()) if lengths.size else 0.0
 
     @cached_property
     def _near_target(self) -> NearPoints:
@@ -206,7 +210,7 @@ class Band:
         if self._given is None:
             return means(self._start, self.samples)
         start = self.skin.with_points(self._start)
-        cell = SAMPLE_DISTANCE * float(row_norms(np.diff(self._start[self.skin.edges.nodes], axis=1)[:, 0]).mean())
+        cell = SAMPLE_DISTANCE * self._edge_length
         x = self._given.samples(cell)
         found = start.find(x)
         kept = extremes_in_cells(x, row_norms(found.points - x), cell) if cell > 0 else np.arange(len(x))

@@ -10,10 +10,8 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import closest_point, incidence
 from hexmend.mesh.fields import as_set
+from hexmend.mesh.size_limits import MAX_COORDINATE
 from hexmend.mesh.validation import as_faces, as_points, points_like
-
-#: Squares of coordinates beyond this overflow.
-MAX_CLOSEST_COORDINATE = 1e150
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,9 +183,7 @@ def _found(x: np.ndarray, found: ClosestPoints) -> ClosestPoints:
     """Return what was found for points x (k, 3); raise `MeshError` if a point has no closest one."""
     if len(x) and found.pieces.min() < 0:
         wrong = x[np.flatnonzero(found.pieces < 0)[0]].tolist()
-        raise MeshError(
-            f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_CLOSEST_COORDINATE:g}"
-        )
+        raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_COORDINATE:g}")
     return found
 
 

@@ -10,16 +10,10 @@ from hexmend.arrays import extent
 from hexmend.boundary.classification import boundary_of
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, angle_in_degrees, dihedral_angles
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
+from hexmend.boundary.tolerances import ROUNDING
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
-
-#: Nodes that have moved less, in mean edge lengths, count as unmoved.
-_MOVE_TOLERANCE = 1e-9
-
-
-#: Largest deviation in mean edge lengths, and largest relative change of the volume, that are rounding errors.
-_ROUNDING = 1e-10
 
 
 @dataclass(frozen=True)
@@ -77,7 +71,7 @@ class SurfaceChange:
     def sentence(self) -> str:
         """Description of the change as a sentence."""
         change = self._distance
-        if abs(self.volume_change) > _ROUNDING:
+        if abs(self.volume_change) > ROUNDING:
             change += f"; its volume changed by {100 * self.volume_change:+.2g} %"
         if self.features:
             edges = count_phrase(self.features, "sharp edge")
@@ -87,7 +81,7 @@ class SurfaceChange:
     @property
     def _distance(self) -> str:
         """Distance of the boundary from the surface or from its earlier shape, as a clause."""
-        if self.max <= _ROUNDING:
+        if self.max <= ROUNDING:
             return f"it is on {self.reference}" if self.reference else "it has kept its shape"
         return (
             f"it is at most {self.max:.2g} mean edge lengths ({self.max_percent_of_diagonal:.2g} % of the diagonal) "
@@ -151,7 +145,7 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     new = old.with_points(after.points)
     spacing = SAMPLE_DISTANCE * before.mean_edge_length
     # Where faces overlap, all boxes at a place would be searched for a piece closer than the one on which it lies.
-    near = 1e-3 * _ROUNDING * before.mean_edge_length
+    near = ROUNDING * before.mean_edge_length
     if after.target is None:
         pieces = old.pieces_of_samples
         both = new.distances(old.samples(), near, pieces), old.distances(new.samples(), near, pieces)
@@ -168,7 +162,7 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
         edge_length=before.mean_edge_length,
         diagonal=float(np.linalg.norm(extent(was))),
         volume_change=(new.volume() - volume) / volume if volume else 0.0,
-        moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVE_TOLERANCE * before.mean_edge_length)),
+        moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > near)),
         features=int(np.count_nonzero(sharp)),
         features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > least))),
         reference="" if after.target is None else after.target.name or "the surface",

@@ -10,11 +10,10 @@ import numpy as np
 from hexmend.boundary.classification import NodeClass
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.boundary.sliding import SlidingBoundary
+from hexmend.boundary.tolerances import FLAT_DISTANCE
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
-#: Distance, in mean edge lengths, up to which a node is exactly on its corner, curve or patch.
-_EXACT = 1e-6
 _CLASSES = (NodeClass.CORNER, NodeClass.CURVE, NodeClass.PATCH)
 _KEYS = ("corners", "curve_nodes", "patch_nodes")
 
@@ -48,7 +47,7 @@ class Departures:
     @property
     def nodes(self) -> np.ndarray:
         """Numbers of the nodes that have left, ascending, (k,) int64."""
-        return np.flatnonzero(self.distance > _EXACT * self.edge_length)
+        return np.flatnonzero(self.distance > FLAT_DISTANCE * self.edge_length)
 
     @property
     def keeping(self) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.arrays import differing_rows, index_of, mask, row_norms
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.band import NO_NODES
-from hexmend.boundary.sliding.flat_parts import SLIDING_TOLERANCE
+from hexmend.boundary.tolerances import FLAT_DISTANCE
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy
@@ -191,7 +191,7 @@ class SlidingEnergy(MeshEnergy):
         """
         nodes = self._linear_nodes if changed is None else self._linear_nodes[changed[self._linear_nodes]]
         away = self._distances(points, nodes)
-        outside = away > 3 * SLIDING_TOLERANCE * self.unit
+        outside = away > FLAT_DISTANCE * self.unit
         nodes, away = nodes[outside], away[outside]
         return nodes[away > self._distances(before, nodes)] if nodes.size else nodes
 

@@ -16,8 +16,6 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import fixed_tetrahedra
 
-#: Largest distance of nodes from a plane or line, in mean edge lengths: files may hold seven digits.
-_FLATNESS = 1e-7
 #: Largest determinant that counts as 0, in products of the three edges, and largest change that counts as none, in
 #: products of the longest edge squared and the second longest. Corners of thin hexes are positive though small.
 _ROUNDING = 1e-6
@@ -89,7 +87,7 @@ def find_locked_corners(mesh: Mesh, sliding: SlidingBoundary, hexes: np.ndarray)
         By hex and corner.
     """
     tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]
-    parts = flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length, _FLATNESS)
+    parts = flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length)
     at, corner = np.nonzero(_constant(mesh.points, tetrahedra, _projectors(sliding, parts)))
     fixed = fixed_tetrahedra(mesh.hexes[hexes], sliding.mesh.fixed)
     count = {2: np.zeros(fixed.shape, dtype=np.int64), 1: np.zeros(fixed.shape, dtype=np.int64)}

@@ -74,9 +74,13 @@ def test_on_another_surface_interfaces_are_not_compared():
     assert {*np.flatnonzero(end)} <= {*band.nodes_outside_band(points)}
 
 
-def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_boundary():
-    mesh, band = band_of(size=0.0)
-    assert band.max_deviation == pytest.approx(1e-9 * np.sqrt(12))
-    assert band_of(size=0.5)[1].max_deviation == 0.5
-    nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
-    assert nothing.max_deviation == 0
+@pytest.mark.parametrize("target", [False, True])
+def test_a_band_without_width_allows_rounding(target):
+    mesh, band = band_of(size=0.0, target=target)
+    assert band.nodes_outside_band(mesh.points + [1e-8, 0, 0]).size == 0
+    assert band.nodes_outside_band(mesh.points + [1e-6, 0, 0]).size > 0
+
+
+def test_a_band_of_no_faces_has_no_nodes_outside():
+    points = grid(2).points
+    assert Band(points, np.empty((0, 4), np.int32), points, None, 0.0).nodes_outside_band(points + 1).size == 0

@@ -10,7 +10,9 @@ import numpy as np
 from hexmend.arrays import cross_products, row_norms
 from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
 from hexmend.boundary.feature_edges.prominence import LEAST_ANGLE, is_low, standing_corners, surrounding_angles
+from hexmend.boundary.marking import marked_segments
 from hexmend.boundary.skin_faces import edges_between_sets, lone_set_nodes
+from hexmend.boundary.tolerances import ROUNDING
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components
 from hexmend.parameters import AUTO
@@ -22,8 +24,6 @@ FEATURE_ANGLE: FeatureAngle = AUTO
 #: Dangling chains and isolated groups of feature edges count as roughness of a patch if the sum of their dihedral
 #: angles is less than this multiple of the feature angle.
 WHISKER_FACTOR = 10.0
-#: Smallest ratio of a face's area to that of a square with its perimeter for which it has a normal.
-_MIN_AREA_RATIO = 1e-6
 
 
 def feature_edges(
@@ -93,8 +93,7 @@ def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
     one, other = (normals.take(edges.neighbours[:, side], axis=0) for side in (0, 1))  # in a third of the time of []
     if not edges.opposed.all():
         other = np.where(edges.opposed[:, None], other, -other)
-    angle = np.degrees(np.arctan2(row_norms(cross_products(one, other)), np.einsum("ij,ij->i", one, other)))
-    return np.where(edges.count == 2, angle, 0.0)
+    return np.where(edges.count == 2, _angles_between(one, other), 0.0)
 
 
 def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
@@ -104,7 +103,7 @@ def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     area = sum(cross_products(one, other) for one, other in pairwise(x))  # twice the area vector
     size = row_norms(area)
     perimeter = row_norms(x[0]) + sum(row_norms(other - one) for one, other in pairwise(x)) + row_norms(x[-1])
-    sound = size > _MIN_AREA_RATIO * perimeter**2 / 8
+    sound = size > ROUNDING * perimeter**2 / 8  # a square has all of it
     if sound.all():
         return area / size[:, None]
     return np.where(sound[:, None], area, 0.0) / np.where(sound, size, 1.0)[:, None]
@@ -115,10 +114,14 @@ def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray
     ends, (first, second) = segments.ravel(), segment_pairs(segments, between).T
     node = ends[first]
     before, after = points[node] - points[ends[first ^ 1]], points[ends[second ^ 1]] - points[node]
-    across = row_norms(cross_products(before, after))
     angle = np.zeros(len(points))
-    angle[node] = np.degrees(np.arctan2(across, np.einsum("ij,ij->i", before, after)))
+    angle[node] = _angles_between(before, after)
     return angle
+
+
+def _angles_between(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Angles between vectors (k, 3), in degrees, 0 where a vector is 0; (k,) float64."""
+    return np.degrees(np.arctan2(row_norms(cross_products(one, other)), np.einsum("ij,ij->i", one, other)))
 
 
 def curve_corners(points: np.ndarray, segments: np.ndarray, between: np.ndarray, turn: FeatureAngle) -> np.ndarray:
@@ -146,21 +149,11 @@ def marked_edges(mesh: Mesh) -> np.ndarray:
 
     Faces of two references, as Medit has them, are of two sets.
     """
-    found = [edges_between_sets(mesh), ridges(mesh)]
+    found = [edges_between_sets(mesh), marked_segments(mesh)]
     for cells in mesh.cells:
         if cells.kind == "quad" and "medit:ref" in cells.data:
             edges, side = SurfaceEdges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
             found.append(edges.nodes[side[edges.neighbours[:, 0]] != side[edges.neighbours[:, 1]]])
-    return np.concatenate(found)
-
-
-def ridges(mesh: Mesh) -> np.ndarray:
-    """Edges marked one by one, as ridges or required, (e, 2) int."""
-    found = [np.empty((0, 2), dtype=np.int64)]
-    for cells in mesh.cells:
-        for flag in ("medit:ridge", "medit:required"):
-            if cells.kind == "line" and flag in cells.data:
-                found.append(cells.nodes[np.asarray(cells.data[flag]) != 0])
     return np.concatenate(found)
 
 

@@ -8,12 +8,8 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.boundary.classification import Boundary, NodeClass
+from hexmend.boundary.tolerances import ROUNDING
 from hexmend.mesh.linear_motion import LinearMotion
-
-#: Largest distance of nodes from the plane of a flat patch or the line of a straight curve, in mean edge lengths.
-FLATNESS_TOLERANCE = 1e-9
-#: The same for nodes that slide: files may hold seven digits. A node keeps its distance.
-SLIDING_TOLERANCE = 1e-7
 
 
 class FlatPart(NamedTuple):
@@ -31,10 +27,8 @@ class FlatPart(NamedTuple):
     directions: np.ndarray
 
 
-def flat_parts(
-    points: np.ndarray, boundary: Boundary, mean_edge: float, tolerance: float = FLATNESS_TOLERANCE
-) -> list[FlatPart]:
-    """Find the flat patches and straight curves of a boundary.
+def flat_parts(points: np.ndarray, boundary: Boundary, mean_edge: float) -> list[FlatPart]:
+    """Find the flat patches and straight curves of a boundary: no node is further than `ROUNDING` from them.
 
     Parameters
     ----------
@@ -43,8 +37,6 @@ def flat_parts(
     boundary : Boundary
     mean_edge : float
         Mean edge length of the mesh.
-    tolerance : float
-        Largest distance of nodes from a plane or line, in mean edge lengths.
 
     Returns
     -------
@@ -60,13 +52,15 @@ def flat_parts(
             nodes = np.unique(of_part)
             x = points[nodes] - points[nodes].mean(axis=0)
             directions = np.linalg.eigh(x.T @ x)[1]  # by ascending extent
-            if np.abs(x @ directions[:, : 3 - dimensions]).max() <= tolerance * mean_edge:
+            if np.abs(x @ directions[:, : 3 - dimensions]).max() <= ROUNDING * mean_edge:
                 found.append(FlatPart(nodes, directions[:, 3 - dimensions :]))
     return found
 
 
 def flat_motion(points: np.ndarray, boundary: Boundary, sliding: np.ndarray, mean_edge: float) -> LinearMotion:
     """Restrict sliding nodes (k,) int on flat patches to their planes, and those on straight curves to their lines.
+
+    A node keeps its distance from the plane or line.
 
     Parameters
     ----------
@@ -80,7 +74,7 @@ def flat_motion(points: np.ndarray, boundary: Boundary, sliding: np.ndarray, mea
     LinearMotion
     """
     slides, nodes, projectors = mask(sliding, len(points)), [], []
-    for part in flat_parts(points, boundary, mean_edge, SLIDING_TOLERANCE):
+    for part in flat_parts(points, boundary, mean_edge):
         own_class = NodeClass.PATCH if part.directions.shape[1] == 2 else NodeClass.CURVE
         own = part.nodes[slides[part.nodes] & (boundary.node_class[part.nodes] == own_class)]
         nodes.append(own)

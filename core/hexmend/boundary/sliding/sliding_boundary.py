@@ -12,7 +12,8 @@ from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
-from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges, ridges
+from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
+from hexmend.boundary.marking import marked_segments
 from hexmend.boundary.skin_surface import MAX_TARGET_DISTANCE, SkinSurface
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
 from hexmend.boundary.sliding.flat_parts import flat_motion
@@ -99,7 +100,7 @@ class SlidingBoundary(SlidingNodes):
         self.releasable[marked_corners(mesh)] = False
         self._of_interfaces = mask(whole.patch_of_face[len(mesh.topology.boundary_faces) :], whole.n_patches)
         self.confined = interface_nodes(mesh).copy()
-        self.confined[marked_edges(mesh) if sets_hold else ridges(mesh)] = True
+        self.confined[marked_edges(mesh) if sets_hold else marked_segments(mesh)] = True
         self.releasable &= ~(stays | self.confined)
 
     @property

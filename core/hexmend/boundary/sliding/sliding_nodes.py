@@ -12,12 +12,13 @@ import numpy as np
 from hexmend.arrays import differing_rows, index_of, mask
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import Boundary, NodeClass
-from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPointCache, ClosestPoints, triangulate
+from hexmend.boundary.closest_point import ClosestPointCache, ClosestPoints, triangulate
 from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.skin_surface import SkinSurface
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
+from hexmend.mesh.size_limits import MAX_COORDINATE
 from hexmend.mesh.validation import as_points, points_like
 
 
@@ -221,14 +222,14 @@ class SlidingNodes(Band):
         try:
             return self._cache.closest(x, None if nodes is None else self._number[nodes])
         except MeshError:
-            far = np.flatnonzero(~(np.abs(x) < MAX_CLOSEST_COORDINATE).all(axis=1))
+            far = np.flatnonzero(~(np.abs(x) < MAX_COORDINATE).all(axis=1))
             if not far.size:
                 raise
             row = far[0]
             node = int((self.nodes if nodes is None else nodes)[row])
             raise MeshError(
                 f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
-                f"coordinates below {MAX_CLOSEST_COORDINATE:g}. Correct its place, or pin it."
+                f"coordinates below {MAX_COORDINATE:g}. Correct its place, or pin it."
             ) from None
 
 
