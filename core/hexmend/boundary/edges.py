@@ -61,15 +61,10 @@ class SurfaceEdges:
         return closest_point.count_fans(faces.ravel(), faces.shape[1], self._sides, self._first, self.n)
 
 
-def _ordered(pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lower and the higher number of each of some pairs (..., 2); NumPy's sort takes ten times as long."""
-    return np.minimum(pairs[..., 0], pairs[..., 1]), np.maximum(pairs[..., 0], pairs[..., 1])
-
-
 def edge_keys(edges: np.ndarray, n: int) -> np.ndarray:
     """Return the unique number of each edge (..., 2) of n nodes, whatever its direction, (...) int64."""
-    lower, higher = _ordered(np.asarray(edges))
-    return lower.astype(np.int64) * n + higher
+    one, other = np.moveaxis(np.asarray(edges), -1, 0)
+    return np.minimum(one, other).astype(np.int64) * n + np.maximum(one, other)  # np.sort takes ten times as long
 
 
 def segment_pairs(segments: np.ndarray, between: np.ndarray) -> np.ndarray:

@@ -43,10 +43,7 @@ def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
 def freed_by_rules(mesh: Mesh) -> np.ndarray:
     """Find the nodes of the surface that move otherwise than on it: freed ones, and those with a linear motion."""
     motion, rules = mesh.linear_motion, mesh.node_rules
-    moves = np.zeros(mesh.n_nodes, dtype=bool)
-    if motion is not None:
-        for nodes in motion.nodes, motion.tied, motion.master:
-            moves[nodes] = True
+    moves = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
     if rules.free is not None:
         moves |= rules.free & ~mesh.topology.boundary
     return np.flatnonzero(moves & ~mesh.fixed)
