@@ -4,7 +4,7 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
+from hexmend.mesh.second_order import NODE_POSITIONS
 
 _CENTRED = UNIT_CUBE - [0.5, 0.5, 0.0]
 

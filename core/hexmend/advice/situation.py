@@ -127,8 +127,7 @@ class Situation:
     @cached_property
     def freed(self) -> int:
         """Number of the locked hexes that a sliding boundary can free."""
-        which = np.zeros(self.mesh.n_hexes, dtype=bool)
-        which[self.locked] = True
+        which = mask(self.locked, self.mesh.n_hexes)
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, self.smoother.feature_angle)))
 
     @property
@@ -168,7 +167,8 @@ class Situation:
         """Nodes of resisting hexes that are free but for the part to which the run was limited, (j,) int."""
         nodes = np.unique(self.mesh.hexes[self.resisting])
         nodes = nodes[self._outside[nodes]]
-        return nodes[self._movable(self.mesh.replace(pinned=self._without_outside))[nodes]]
+        pinned = None if self.mesh.pinned is None else self.mesh.pinned & ~self._outside
+        return nodes[self._movable(self.mesh.replace(pinned=pinned))[nodes]]
 
     @cached_property
     def fixing_sets(self) -> tuple[str, ...]:
@@ -188,10 +188,6 @@ class Situation:
     def can_release(self) -> bool:
         """True if resisting hexes have nodes that a pin, a rule or the part of the run fixes."""
         return bool(self.pinned_nodes.size or self.fixing_sets or self.outside_nodes.size)
-
-    @property
-    def _without_outside(self) -> np.ndarray | None:
-        return None if self.mesh.pinned is None else self.mesh.pinned & ~self._outside
 
     def _movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes of a mesh that are free, and those of its boundary that slide, (n,) bool."""

@@ -29,20 +29,7 @@ if TYPE_CHECKING:
     from hexmend.cli.command import Command
 
 #: The commands in the order of the help: those of each day first. Others follow.
-_ORDER = (
-    "info",
-    "smooth",
-    "compare",
-    "repair",
-    "pad",
-    "view",
-    "render",
-    "film",
-    "report",
-    "figures",
-    "study",
-    "gallery",
-)
+_ORDER = ["info", "smooth", "compare", "repair", "pad", "view", "render", "film", "report", "figures", "study"]
 
 #: The command that is run for a mesh file without a command, or without any arguments.
 _DEFAULT = "view"

@@ -5,17 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS
+from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
 from hexmend.quality import corner_determinants
 from hexmend.quality.validity import Validity, certify
 from hexmend.terminal_text import count_phrase
-
-#: Columns of `mid_nodes` on each of the six faces: its four edges and its centre, (6, 5).
-_ON_FACE = np.array(
-    [[*np.flatnonzero(np.isin(MID_EDGES, face).all(axis=1)), 12 + row] for row, face in enumerate(FACES)]
-)
 
 
 @register_problem
@@ -65,7 +60,7 @@ def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:
         material = mesh.materials.of_hex
         outer = outer | (material[mesh.topology.face_neighbours] != material[:, None])
     rows, faces = np.nonzero(outer)
-    nodes = mesh.mid_nodes[rows[:, None], _ON_FACE[faces]]
+    nodes = mesh.mid_nodes[rows[:, None], FACE_COLUMNS[faces]]
     kept = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
     kept[nodes[nodes >= 0]] = True
     for cells in mesh.cells:

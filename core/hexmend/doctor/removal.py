@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import index_of, mask
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 
@@ -24,8 +25,7 @@ def keep_hexes(mesh: Mesh, kept: np.ndarray, representative: np.ndarray | None =
     Mesh
     """
     rows = np.flatnonzero(kept)
-    place = np.full(mesh.n_hexes, -1)
-    place[rows] = np.arange(len(rows))
+    place = index_of(rows, mesh.n_hexes)
     if representative is not None:
         place = place[representative]
     sides = {name: np.column_stack([place[side[:, 0]], side[:, 1]]) for name, side in mesh.side_sets.items()}
@@ -51,8 +51,7 @@ def extract_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
     -------
     Mesh
     """
-    used = np.zeros(mesh.n_nodes, bool)
-    used[mesh.hexes[kept]] = True
+    used = mask(mesh.hexes[kept], mesh.n_nodes)
     if mesh.mid_nodes is not None:
         mids = mesh.mid_nodes[kept]
         used[mids[mids >= 0]] = True

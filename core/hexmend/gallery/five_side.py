@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.gallery.blocks import extrude
-from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
+from hexmend.gallery.gallery_mesh import GalleryMesh, extrude, gallery_mesh
 from hexmend.gallery.pentagon import fan, pentagon, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter

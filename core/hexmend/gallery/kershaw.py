@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.gallery.blocks import box_hexes, tensor_product
-from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
+from hexmend.gallery.gallery_mesh import GalleryMesh, box_hexes, gallery_mesh, tensor_product
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 

@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.gallery.aeroplane import PARTS, map_onto_aeroplane
-from hexmend.gallery.blocks import box_hexes, extrude, tensor_product
-from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh, scramble_nodes
+from hexmend.gallery.gallery_mesh import GalleryMesh, box_hexes, extrude, gallery_mesh, scramble_nodes, tensor_product
 from hexmend.gallery.growth import diffuse, grow_layers, relax
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology

@@ -9,11 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import convert_to_mesh, import_library
-from hexmend.interop.side_marks import with_side_marks
+from hexmend.interop.conversion import convert_to_mesh, import_library, with_side_marks
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, from_mesh, merge_blocks, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import unread_note
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase

@@ -13,8 +13,7 @@ import pkgutil
 
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.coordinates.original import Original
-from hexmend.io.coordinates.replacement import Written
+from hexmend.io.coordinates.replacement import Original, Written
 from hexmend.io.files import (
     read,
     readable_suffixes,

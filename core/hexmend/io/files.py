@@ -8,20 +8,21 @@ from pathlib import Path
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
+from hexmend.io.base.content import INTERPOLATE_MISSING
 from hexmend.io.base.format import Format
-from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
+from hexmend.io.base.remedies import unread_content
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.coordinates.replacement import (
     REWRITE,
     ChangedFileError,
     IncludedFileError,
     LostContentError,
+    Original,
     Written,
+    difference,
     is_same_file,
     replace_coordinates,
 )
-from hexmend.io.coordinates.unread import unread_content
 from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.file_progress import FileAction, file_operation, report, stage
@@ -129,10 +130,7 @@ def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) ->
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
     write = format.write
     assert write is not None  # a format that has encodings
-    if format.place:
-        write(path, mesh, encoding)
-        return
-    if format.remove:
+    if format.place or format.remove:  # it writes several files, each as a whole
         with file_operation(path, FileAction.WRITING):
             write(path, mesh, encoding)
         return

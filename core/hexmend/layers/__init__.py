@@ -1,9 +1,14 @@
 """Boundary layers: stacks of thin hexes on a wall, found from their heights, kept by targets, and reported."""
 
-from hexmend.layers.detection import find_layers
-from hexmend.layers.grading import grading_message
-from hexmend.layers.named_walls import layers_on_sets
-from hexmend.layers.report import LayerReport, LayerState, describe_layers, describe_losses, layer_report
+from hexmend.layers.detection import find_layers, layers_on_sets
+from hexmend.layers.report import (
+    LayerReport,
+    LayerState,
+    describe_layers,
+    describe_losses,
+    grading_message,
+    layer_report,
+)
 from hexmend.layers.targets import KEEP_LAYERS, keeps_layers, named_walls, run_target
 from hexmend.layers.walls import Layers, Wall
 

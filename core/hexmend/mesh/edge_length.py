@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.kernels import elements
 from hexmend.mesh.hexahedron import EDGES
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 
 #: The longest edges are outliers if the mean of all exceeds this multiple of the trimmed mean.
 OUTLIER_FACTOR = 4.0
@@ -41,8 +41,7 @@ def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
     >>> mean_edge_length(2 * UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     2.0
     """
-    points = as_points(points)
-    hexes = as_hexes(hexes, len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
     if not len(hexes):
         return 0.0
     sample = edge_lengths(points, hexes[:: sample_stride(len(hexes))])

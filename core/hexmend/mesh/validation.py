@@ -196,6 +196,12 @@ def as_hexes(hexes: object, nodes: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def as_points_and_hexes(points: object, hexes: object) -> tuple[np.ndarray, np.ndarray]:
+    """Return `as_points` of points and `as_hexes` of hexes among them."""
+    points = as_points(points)
+    return points, as_hexes(hexes, len(points))
+
+
 def as_faces(faces: object, nodes: int) -> np.ndarray:
     """Convert faces of a surface, all triangles or all quads, to contiguous int32.
 

@@ -68,9 +68,7 @@ class Sheet:
     @cached_property
     def is_padded(self) -> np.ndarray:
         """True for the sides of hexes that are faces of the sheet, (m, 6) bool."""
-        marks = np.zeros((self.mesh.n_hexes, 6), dtype=bool)
-        marks[self.faces[:, 0], self.faces[:, 1]] = True
-        return marks
+        return self.face_number >= 0
 
     @cached_property
     def face_number(self) -> np.ndarray:

@@ -6,15 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.second_order import MID_EDGES
+from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
 from hexmend.padding.inserted_layer import INNER, LATERAL, OUTER, Sheet
 
-#: Column in `mid_nodes` of the mid-node between two corners, -1 where there is no edge, (8, 8).
-COLUMN = np.full((8, 8), -1)
-COLUMN[MID_EDGES[:, 0], MID_EDGES[:, 1]] = COLUMN[MID_EDGES[:, 1], MID_EDGES[:, 0]] = np.arange(12)
 #: Columns of the mid-nodes of the sides of each face, from corner i to corner i + 1, (6, 4).
-SIDE_COLUMNS = COLUMN[FACES, np.roll(FACES, -1, axis=1)]
+SIDE_COLUMNS = FACE_COLUMNS[:, :4]
 #: Column of the centre of the first face, and of the centre of the hex.
 CENTRES, MIDDLE = 12, 18
 
@@ -55,17 +52,18 @@ def padded_mid_nodes(sheet: Sheet) -> PaddedMidNodes:
     new[:, 4:8], new[:, CENTRES + OUTER] = sides, centres
 
     ends = np.sort(np.stack([inner, np.roll(inner, -1, axis=1)], axis=-1), axis=2)
-    keys, copies = numbers.of(np.concatenate([sides[..., None], ends], axis=2).reshape(-1, 3), sides.ravel())
+    keys = np.concatenate([sides[..., None], ends], axis=2).reshape(-1, 3)
+    copies = numbers.of(keys, sides.ravel())
     new[:, :4] = copies.reshape(-1, 4)
-    new[:, CENTRES + INNER] = numbers.of(np.arange(len(hexes))[:, None], centres)[1]
+    new[:, CENTRES + INNER] = numbers.of(np.arange(len(hexes))[:, None], centres)
     whole = (sides >= 0).all(axis=1)
     upright = np.where(whole[:, None], sheet.quads, -1)
-    new[:, 8:12] = numbers.of(inner.reshape(-1, 1), upright.ravel())[1].reshape(-1, 4)
+    new[:, 8:12] = numbers.of(inner.reshape(-1, 1), upright.ravel()).reshape(-1, 4)
     lateral = np.where((centres >= 0)[:, None], sides, -1)
-    found = numbers.of(sheet.lateral_of_side.reshape(-1, 1), lateral.ravel())[1]
+    found = numbers.of(sheet.lateral_of_side.reshape(-1, 1), lateral.ravel())
     new[:, CENTRES + LATERAL] = found.reshape(-1, 4)
     middle = np.where(given[hexes, MIDDLE] >= 0, np.where(centres >= 0, centres, sheet.quads[:, 0]), -1)
-    new[:, MIDDLE] = numbers.of(np.arange(len(hexes))[:, None], middle)[1]
+    new[:, MIDDLE] = numbers.of(np.arange(len(hexes))[:, None], middle)
 
     behind = given.astype(np.int64)
     behind[hexes, CENTRES + faces] = new[:, CENTRES + INNER]
@@ -95,8 +93,8 @@ class _Numbers:
         self._next = first
         self._sources: list[np.ndarray] = []
 
-    def of(self, keys: np.ndarray, sources: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the keys (j, w), and a number for each, equal for equal keys; -1 where its source (j,) is -1."""
+    def of(self, keys: np.ndarray, sources: np.ndarray) -> np.ndarray:
+        """Number each of the keys (j, w), (j,) int64, equal for equal keys; -1 where its source (j,) is -1."""
         numbers = np.full(len(keys), -1)
         there = np.flatnonzero(sources >= 0)
         if there.size:
@@ -104,7 +102,7 @@ class _Numbers:
             numbers[there] = self._next + which.reshape(-1)
             self._next += first.size
             self._sources.append(sources[there[first]])
-        return keys, numbers
+        return numbers
 
     @property
     def sources(self) -> np.ndarray:

@@ -7,7 +7,6 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.mid_nodes import padded_mid_nodes
-from hexmend.padding.padded_cells import padded_cells
 from hexmend.padding.padded_data import (
     element_numbering,
     extended_data,
@@ -16,7 +15,7 @@ from hexmend.padding.padded_data import (
     padded_node_set,
 )
 from hexmend.padding.placement import displacements, neighbours_behind
-from hexmend.padding.sides import padded_side_set
+from hexmend.padding.sides import padded_cells, padded_side_set
 
 
 def padded_mesh(sheet: Sheet, thickness: float | None = None) -> Mesh:

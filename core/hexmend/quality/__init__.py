@@ -9,15 +9,21 @@ import pkgutil
 
 from hexmend.quality import metrics
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked_hexes, measure
-from hexmend.quality.mesh_quality import metric_values, rank_worst, worst_hexes
+from hexmend.quality.mesh_quality import measure_against_target, metric_values, rank_worst, target_quality, worst_hexes
 from hexmend.quality.metric import METRICS, HexQuantity, Metric
 from hexmend.quality.metrics.q import Q
 from hexmend.quality.metrics.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.regressions import REGRESSION_KEYS, describe_regressions, regressions
-from hexmend.quality.second_order import SecondOrderSummary, summarise_second_order
-from hexmend.quality.statistics import MetricStatistics, metric_statistics
-from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, objective, summarise
-from hexmend.quality.target_quality import measure_against_target, target_quality
+from hexmend.quality.summary import (
+    SUMMARY_QUANTITIES,
+    MetricStatistics,
+    SecondOrderSummary,
+    Summary,
+    metric_statistics,
+    objective,
+    summarise,
+    summarise_second_order,
+)
 
 _modules = [module.name for module in pkgutil.walk_packages(metrics.__path__, f"{metrics.__name__}.")]
 for _module in sorted(_modules, key=lambda name: name.count(".")):  # those of packages last

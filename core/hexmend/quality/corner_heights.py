@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 from hexmend.quality.finite_volume.geometry import chunks, cross, divide, dot, norm
 
 
@@ -31,8 +31,7 @@ def least_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> least_heights(UNIT_CUBE * [1, 2, 0.5], np.arange(8)[None])
     array([0.5])
     """
-    points = as_points(points)
-    hexes = as_hexes(hexes, len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
     least = np.empty(len(hexes))
     for part in chunks(len(hexes)):
         x = points[hexes[part]].transpose(2, 1, 0)  # (3, 8, k)

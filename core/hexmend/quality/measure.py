@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.kernels import elements
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.mesh.validation import as_bools, as_hexes, as_points
+from hexmend.mesh.validation import as_bools, as_points_and_hexes
 from hexmend.quality.validity import Validity, certify
 from hexmend.quantity import format_quality
 from hexmend.terminal_text import count_phrase
@@ -136,8 +136,7 @@ def measure(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     >>> measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]).q
     array([1.])
     """
-    points = as_points(points)
-    hexes = as_hexes(hexes, len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
     elements.measure(points, hexes, q, sigma, jacobian, eta)
     may_change = points.flags.writeable or hexes.flags.writeable  # else it is certified when that is asked for
@@ -181,8 +180,8 @@ def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, 
     MeshError
         For an array of another shape or type.
     """
-    points = as_points(points)
-    hexes, fixed = as_hexes(hexes, len(points)), as_bools(fixed, "fixed", len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
+    fixed = as_bools(fixed, "fixed", len(points))
     where = np.flatnonzero(as_bools(inverted, "inverted", len(hexes)))
     locked = np.zeros((len(hexes), 8), dtype=bool)
     locked[where] = fixed_tetrahedra(hexes[where], fixed) & ~(corner_determinants(points, hexes, where) > 0)
@@ -209,8 +208,7 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     (k, 8) float64
         In the cube of the points' unit of length.
     """
-    points = as_points(points)
-    chosen = as_hexes(hexes, len(points))
+    points, chosen = as_points_and_hexes(points, hexes)
     if which is not None:
         chosen = chosen[as_set(which, "which", len(chosen))]
     sigma = np.empty((len(chosen), 8))
@@ -237,8 +235,7 @@ def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> corner_qualities(UNIT_CUBE, np.arange(8)[None])
     array([[1., 1., 1., 1., 1., 1., 1., 1.]])
     """
-    points = as_points(points)
-    hexes = as_hexes(hexes, len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
     q = np.empty((len(hexes), 8))
     elements.corner_qualities(points, hexes, q)
     return q

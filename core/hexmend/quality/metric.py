@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_entry_points
 
@@ -102,8 +102,7 @@ def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float
     """
 
     def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
-        points = as_points(points)
-        hexes = as_hexes(hexes, len(points))
+        points, hexes = as_points_and_hexes(points, hexes)
         values = np.empty((rows, len(hexes)))
         kernel(points, hexes, *values)
         values[row][np.isnan(values[row])] = worst

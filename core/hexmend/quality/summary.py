@@ -1,12 +1,22 @@
-"""Measurement of the summary of a mesh, and of the objective that smoothing minimises."""
+"""Measurement of the summary of a mesh, and of the objective that smoothing minimises.
+
+Summary of the Jacobians of second-order hexes, which their eight corners do not determine.
+
+Statistics of every metric over a mesh.
+"""
 
 from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked_hexes, measure
-from hexmend.quality.validity import least_jacobian
+from hexmend.quality.metric import METRICS, Metric
+from hexmend.quality.validity import Validity, certify, least_jacobian
+from hexmend.quantity import format_count, format_quality
 from hexmend.summary import SUMMARY_QUANTITIES, Summary
 
 __all__ = ["SUMMARY_QUANTITIES", "Summary", "objective", "summarise"]
@@ -78,3 +88,102 @@ def objective(quality: ElementQuality, p: float = 2.0, offset: float = 1.0) -> f
     with np.errstate(over="ignore"):
         total = float(((quality.eta + (1 - offset)) ** p).sum())
     return total if np.isfinite(total) else None
+
+
+@dataclass(frozen=True)
+class SecondOrderSummary:
+    """Summary of the hexes of 20 or 27 nodes of a mesh.
+
+    Parameters
+    ----------
+    hexes : int
+        Number of these hexes.
+    invalid : int
+        Number of hexes whose det J is not certified as positive everywhere.
+    min_jacobian : float
+        Certified lower bound of the least det J in a hex over the greatest in the same hex.
+    """
+
+    hexes: int
+    invalid: int
+    min_jacobian: float
+
+    def to_dict(self) -> dict[str, float | int]:
+        """Return the values by name."""
+        return dataclasses.asdict(self)
+
+    @property
+    def phrase(self) -> str:
+        """Description of the values as part of a sentence."""
+        return (
+            f"{format_count(self.invalid)} of {format_count(self.hexes)} are invalid (least Jacobian over the greatest "
+            f"in a hex: {format_quality(self.min_jacobian)})"
+        )
+
+
+def summarise_second_order(mesh: Mesh) -> SecondOrderSummary | None:
+    """Summarise the second-order hexes of a mesh; None if it has none."""
+    if mesh.mid_nodes is None:
+        return None
+    which = (mesh.mid_nodes >= 0).any(axis=1)
+    if not which.any():
+        return None
+    hexes, mid_nodes = np.ascontiguousarray(mesh.hexes[which]), mesh.mid_nodes[which]
+    invalid = int(np.count_nonzero(certify(mesh.points, hexes, mid_nodes) != Validity.VALID))
+    return SecondOrderSummary(len(hexes), invalid, least_jacobian(mesh.points, hexes, mid_nodes))
+
+
+@dataclass(frozen=True)
+class MetricStatistics:
+    """Statistics of one metric over the hexes of a mesh.
+
+    Parameters
+    ----------
+    min, mean, max : float or None
+        Of the finite values; None if there are none.
+    infinite : int
+        Number of hexes whose value is not finite, such as the edge ratio with an edge of length 0.
+    unacceptable : int
+        Number of hexes, infinite values included, worse than the metric's acceptable range.
+    """
+
+    min: float | None
+    mean: float | None
+    max: float | None
+    infinite: int
+    unacceptable: int
+
+    @classmethod
+    def over(cls, metric: Metric, values: np.ndarray) -> MetricStatistics:
+        """Compute the statistics of a metric's values, (m,)."""
+        finite = values[np.isfinite(values)]
+        low, mean, high = (float(of()) for of in (finite.min, finite.mean, finite.max)) if finite.size else [None] * 3
+        unacceptable = int(np.count_nonzero(metric.unacceptable(values)))
+        return cls(low, mean, high, values.size - finite.size, unacceptable)
+
+    def to_dict(self) -> dict[str, float | int | None]:
+        """Return the values by name."""
+        return dataclasses.asdict(self)
+
+
+def metric_statistics(mesh: Mesh, quality: ElementQuality | None = None) -> dict[str, MetricStatistics]:
+    """Compute the statistics of every metric, by its name.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    quality : ElementQuality, optional
+        Quality of the hexes, if it is measured already.
+
+    Returns
+    -------
+    dict of str to MetricStatistics
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
+    MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
+    """
+    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
+    return {name: MetricStatistics.over(metric, metric.values(mesh, quality)) for name, metric in METRICS.items()}

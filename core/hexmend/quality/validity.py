@@ -15,9 +15,9 @@ from enum import IntEnum
 import numpy as np
 
 from hexmend.kernels import validity as kernels
+from hexmend.mesh.second_order import NODE_POSITIONS
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
-from hexmend.mesh.second_order.mid_nodes import NODE_POSITIONS
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 
 #: Row of `NODE_POSITIONS` of each node of a lattice 3 x 3 x 3, x slowest and z fastest, as the kernels take them.
 _LATTICE = np.lexsort(NODE_POSITIONS.T[::-1])
@@ -64,7 +64,7 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     >>> certify(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     array([0], dtype=uint8)
     """
-    points, hexes = _checked(points, hexes)
+    points, hexes = as_points_and_hexes(points, hexes)
     found = np.empty(len(hexes), dtype=np.uint8)
     kernels.certify(points, hexes, found)
     for some, nodes in _second_order(points, hexes, mid_nodes):
@@ -91,7 +91,7 @@ def jacobian_bounds(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray
     >>> jacobian_bounds(2 * UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     array([[8., 8.]])
     """
-    points, hexes = _checked(points, hexes)
+    points, hexes = as_points_and_hexes(points, hexes)
     bounds = np.empty((len(hexes), 2))
     kernels.jacobian_bounds(points, hexes, bounds)
     for some, nodes in _second_order(points, hexes, mid_nodes):
@@ -106,18 +106,12 @@ def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray 
 
     Parameters and errors are those of `certify`. 1 for parallelepipeds; 0 or less if a hex is invalid.
     """
-    points, hexes = _checked(points, hexes)
+    points, hexes = as_points_and_hexes(points, hexes)
     if mid_nodes is None:
         return kernels.least_jacobian(points, hexes)
     linear = np.ascontiguousarray(hexes[(mid_nodes < 0).all(axis=1)])
     curved = (kernels.least_jacobian_quadratic(nodes) for _, nodes in _second_order(points, hexes, mid_nodes))
     return min((kernels.least_jacobian(points, linear), *curved))
-
-
-def _checked(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points and hexes as kernels take them; raises `MeshError`."""
-    points = as_points(points)
-    return points, as_hexes(hexes, len(points))
 
 
 def _second_order(

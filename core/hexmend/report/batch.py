@@ -11,9 +11,10 @@ from typing import Any
 from hexmend.errors import HexmendError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.quantity import format_count, format_quality, format_significant
-from hexmend.report.documents import write_csv, write_text
+from hexmend.report.documents import write_text
 from hexmend.report.latex import latex
 from hexmend.report.markdown import escape, markdown
+from hexmend.report.records import write_csv
 from hexmend.report.tables import Table
 from hexmend.terminal_text import install_hint
 

@@ -54,22 +54,11 @@ def ended(outcome: str) -> str:
     return _ENDED.get(outcome, outcome)
 
 
+#: Rows of the table that are quantities of a summary.
+_OF_SUMMARY = ["inverted", "invalid", "q_min", "q_mean", "q_std", "q_max", "q_norm", "scaled_jacobian_min", "objective"]
 #: Rows of the table: those of the thesis, and those by which readers can judge them.
 LINES: tuple[Quantity, ...] = (
-    *(
-        SUMMARY_QUANTITIES[key]
-        for key in (
-            "inverted",
-            "invalid",
-            "q_min",
-            "q_mean",
-            "q_std",
-            "q_max",
-            "q_norm",
-            "scaled_jacobian_min",
-            "objective",
-        )
-    ),
+    *map(SUMMARY_QUANTITIES.__getitem__, _OF_SUMMARY),
     Quantity(
         "seconds",
         "time, s",
@@ -174,10 +163,12 @@ def record_table(
             raise ParameterError(f"two methods are called {head!r}: expected a name for each")
         columns[head] = record
     if title is None:
-        title = f"{comparison['mesh']}: {_counts(initial)}"
+        hexes, free = count_phrase(initial["hexes"], "hex", "hexes"), count_phrase(initial["free_nodes"], "free node")
+        title = f"{comparison['mesh']}: {hexes}, {free}"
     notes = []
-    if initial["locked_inverted"]:
-        notes.append(f"{_locked(initial['locked_inverted'])}")
+    if locked := initial["locked_inverted"]:
+        which = count_phrase(locked, "of the inverted hexes is", "of the inverted hexes are")
+        notes.append(f"{which} locked: fixed nodes alone keep {'it' if locked == 1 else 'them'} inverted.")
     if comparison["interrupted"]:
         notes.append("The comparison was interrupted: the last method is incomplete, and those after it are missing.")
     return comparison_table(title, columns, notes=notes)
@@ -240,14 +231,3 @@ def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
         ended.add(KEPT_START)
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]
     return [sentence for key, sentence in sentences.items() if key in ended] + failed
-
-
-def _counts(record: Mapping[str, Any]) -> str:
-    """The numbers of hexes and free nodes."""
-    return f"{count_phrase(record['hexes'], 'hex', 'hexes')}, {count_phrase(record['free_nodes'], 'free node')}"
-
-
-def _locked(count: int) -> str:
-    """Tell how many inverted hexes are locked."""
-    which = count_phrase(count, "of the inverted hexes is", "of the inverted hexes are")
-    return f"{which} locked: fixed nodes alone keep {'it' if count == 1 else 'them'} inverted."

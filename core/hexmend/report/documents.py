@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.io.storage.temporary_files import make_folder
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
-from hexmend.report.records import write_json
+from hexmend.report.records import write_csv, write_json
 from hexmend.report.tables import Table
 
 #: Suffixes of tables: for spreadsheets, readers, LaTeX and programs.
@@ -87,20 +86,3 @@ def write_text(path: Path, text: str) -> None:
     """Write a text file as a whole or not at all; names of files that are not Unicode keep their bytes."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8", errors="surrogateescape")
-
-
-def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows as CSV; missing values are empty fields, and a mapping becomes `key=value` words."""
-    flat = [{key: _cell(value) for key, value in row.items() if not isinstance(value, list)} for row in rows]
-    columns = list(dict.fromkeys(key for row in flat for key in row))
-    with (
-        atomic_write(path) as temporary,
-        open(temporary, "w", newline="", encoding="utf-8", errors="surrogateescape") as file,
-    ):
-        writer = csv.DictWriter(file, columns)
-        writer.writeheader()
-        writer.writerows(flat)
-
-
-def _cell(value: Any) -> Any:
-    return " ".join(f"{key}={one}" for key, one in value.items()) if isinstance(value, Mapping) else value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,11 +57,25 @@ def write_json(path: str | Path, data: Any) -> None:
         temporary.write_text(to_json(data) + "\n", encoding="utf-8")
 
 
+def write_csv(path: str | Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows as CSV; missing values are empty fields, and a mapping becomes `key=value` words."""
+    flat = [{key: _cell(value) for key, value in row.items() if not isinstance(value, list)} for row in rows]
+    columns = list(dict.fromkeys(key for row in flat for key in row))
+    with (
+        atomic_write(path) as temporary,
+        open(temporary, "w", newline="", encoding="utf-8", errors="surrogateescape") as file,
+    ):
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(flat)
+
+
+def _cell(value: Any) -> Any:
+    return " ".join(f"{key}={one}" for key, one in value.items()) if isinstance(value, Mapping) else value
+
+
 def write_history(path: str | Path, result: Result) -> None:
     """Write the history as CSV, with an empty field for an infinite objective."""
     from hexmend.iteration.figures import HISTORY
 
-    with atomic_write(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
-        rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")
-        rows.writeheader()
-        rows.writerows(result.history)
+    write_csv(path, [{column: row[column] for column in HISTORY} for row in result.history])

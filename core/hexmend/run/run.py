@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from hexmend.boundary import Departures, SurfaceChange, departures, surface_change
+from hexmend.boundary import departures, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.locking import describe_overlap
-from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
@@ -232,7 +231,7 @@ class Run(Iterator[Iteration]):
 
     @property
     def _result_mesh(self) -> Mesh:
-        return self.mesh.with_points(self.best.points).with_element_target(self._target)
+        return self.mesh.with_points(self.best.points).with_element_target(self._stage_run.target)
 
     @property
     def _kept_last(self) -> bool:
@@ -245,7 +244,7 @@ class Run(Iterator[Iteration]):
         mesh = self._result_mesh
         mesh._set(_invalid=after.invalid)  # for its representation
         volumes = volume_changes(self.mesh, mesh)
-        walls = self._shapes.reports(self.stage.smoother, self.best.points)
+        walls, sliding = self._shapes.reports(self.stage.smoother, self.best.points), self._sliding_smoother
         return Result(
             mesh=mesh,
             before=before,
@@ -260,23 +259,13 @@ class Run(Iterator[Iteration]):
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
-            surface=self._surface_change(mesh),
-            departures=self._departures(mesh),
+            surface=None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle),
+            departures=None if sliding is None else departures(self.mesh, mesh, sliding.feature_angle, sliding.slides),
             materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
             layers=walls,
             target_q=self._target_q,
         )
-
-    def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
-        """Return the change of the boundary from the mesh as given; None if no method let it slide."""
-        sliding = self._sliding_smoother
-        return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
-
-    def _departures(self, mesh: Mesh) -> Departures | None:
-        """Return the nodes that have left their corner, curve or patch; None if no method let the boundary slide."""
-        sliding = self._sliding_smoother
-        return None if sliding is None else departures(self.mesh, mesh, sliding.feature_angle, sliding.slides)
 
     @property
     def _sliding_smoother(self) -> Smoother | None:
@@ -287,7 +276,7 @@ class Run(Iterator[Iteration]):
     @property
     def _target_q(self) -> tuple[float, float] | None:
         """Least q of target of the mesh as given and of the result; None without a target."""
-        return self._shapes.target_q(self._target, self.start, self.best)
+        return self._shapes.target_q(self._stage_run.target, self.start, self.best)
 
     @property
     def layers(self) -> Layers:
@@ -299,11 +288,6 @@ class Run(Iterator[Iteration]):
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
         stages = [*(one.stage for one in self._stage_runs), *self._remaining_stages]
         return self._shapes.layers_message([stage.smoother for stage in stages])
-
-    @property
-    def _target(self) -> Target | None:
-        """Target of the current stage."""
-        return self._stage_run.target
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
@@ -337,7 +321,7 @@ class Run(Iterator[Iteration]):
         smoother = self._stage_run.smoother
         if smoother.ignored_parameters:
             self.decisions.append(smoother.ignored_parameters)
-        if self._target is not None and not smoother.optimises:
+        if self._stage_run.target is not None and not smoother.optimises:
             self.decisions.append(f"{smoother.title} takes no account of the target of the hexes.")
 
     def _end_if_done(self) -> None:

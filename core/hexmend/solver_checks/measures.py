@@ -1,18 +1,137 @@
-"""Quantities of a mesh from which checks are computed, each computed on first use."""
+"""Quantities of a mesh from which checks are computed, each computed on first use.
+
+Shapes of the quads of hexes: their six faces, and the three cross-sections through the middles of their edges.
+
+Source: ANSYS Theory Reference, 12.1 Element Shape Testing, which judges solids by the quads of both kinds.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.finite_volume import CellGeometry, FaceQuality, cell_geometry, face_quality
-from hexmend.quality.finite_volume.geometry import chunks, divide, norm
+from hexmend.quality.finite_volume.geometry import chunks, cross, divide, dot, in_unit, norm
 from hexmend.quality.measure import ElementQuality, measure
 from hexmend.quality.metric import METRICS
-from hexmend.solver_checks.quads import QuadShapes, quad_shapes
+
+#: Opposite faces by their corners; the middles of the edges between them are the corners of a cross-section.
+_ENDS = np.array([[[0, 3, 7, 4], [1, 2, 6, 5]], [[0, 4, 5, 1], [3, 7, 6, 2]], [[0, 1, 2, 3], [4, 5, 6, 7]]])
+
+
+@dataclass(frozen=True, eq=False)
+class QuadShapes:
+    """Worst shapes of the quads of each hex.
+
+    Parameters
+    ----------
+    aspect_ratio : (m,) float64
+        Of faces and cross-sections; +inf for a quad without area.
+    parallel_deviation : (m,) float64
+        Largest angle of two opposite edges in degrees, of faces and cross-sections.
+    max_angle, min_angle : (m,) float64
+        Largest and smallest angle of two adjacent edges in degrees, the first of faces and cross-sections, the second
+        of faces alone.
+    max_face_angle : (m,) float64
+        Largest angle of two adjacent edges in degrees, of faces alone.
+    warping_factor : (m,) float64
+        Of faces: difference of the heights of an edge's ends, along the face's normal, over the root of its area.
+    corner_cosine : (m,) float64
+        Least cosine of the normals at two diagonally opposite corners of a face; -1 where a corner has no normal.
+    """
+
+    aspect_ratio: np.ndarray
+    parallel_deviation: np.ndarray
+    max_angle: np.ndarray
+    min_angle: np.ndarray
+    max_face_angle: np.ndarray
+    warping_factor: np.ndarray
+    corner_cosine: np.ndarray
+
+
+def quad_shapes(points: np.ndarray, hexes: np.ndarray) -> QuadShapes:
+    """Compute the worst shapes of the quads of each hex.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+
+    Returns
+    -------
+    QuadShapes
+    """
+    x, _ = in_unit(points, hexes)
+    values = np.empty((7, len(hexes)))
+    for part in chunks(len(hexes)):
+        corners = x[:, hexes[part].T]
+        faces = corners[:, FACES]
+        sections = (corners[:, _ENDS[:, 0]] + corners[:, _ENDS[:, 1]]) / 2
+        quads = np.concatenate([faces, sections], axis=1)  # (3, 9, 4, k)
+        edges = np.roll(quads, -1, axis=2) - quads
+        angles, face_angles = _corner_angles(edges), _corner_angles(edges[:, :6])
+        values[:, part] = [
+            _aspect_ratios(quads).max(axis=0),
+            _parallel_deviations(edges).max(axis=0),
+            angles.max(axis=(0, 1)),
+            face_angles.min(axis=(0, 1)),
+            face_angles.max(axis=(0, 1)),
+            _warping_factors(faces).max(axis=0),
+            _corner_cosines(edges[:, :6]).min(axis=0),
+        ]
+    return QuadShapes(*values)
+
+
+def _aspect_ratios(quads: np.ndarray) -> np.ndarray:
+    """Aspect ratios of quads (3, q, 4, k), (q, k).
+
+    The lines that join the middles of opposite edges each have a rectangle with two sides along it that passes through
+    the ends of the other line; the ratio of sides of the more stretched counts.
+    """
+    a, b, c, d = np.moveaxis(quads, 2, 0)
+    first, second = (b + c - a - d) / 2, (c + d - a - b) / 2
+    area = norm(cross(first, second))
+    ratios = [divide(dot(line, line), area, np.inf) for line in (first, second)]
+    with np.errstate(divide="ignore"):
+        return np.max([np.maximum(ratio, 1 / ratio) for ratio in ratios], axis=0)
+
+
+def _parallel_deviations(edges: np.ndarray) -> np.ndarray:
+    """Largest angles of opposite edges of quads (3, q, 4, k) in degrees, (q, k); 180 with an edge of no length."""
+    return np.maximum(_angles(edges[:, :, 0], -edges[:, :, 2], 180.0), _angles(edges[:, :, 1], -edges[:, :, 3], 180.0))
+
+
+def _corner_angles(edges: np.ndarray) -> np.ndarray:
+    """Angles of adjacent edges of quads (3, q, 4, k) in degrees, (q, 4, k); 180 with an edge of no length."""
+    return _angles(edges, -np.roll(edges, 1, axis=2), 180.0)
+
+
+def _angles(a: np.ndarray, b: np.ndarray, otherwise: float) -> np.ndarray:
+    """Angles of vectors (3, ...) in degrees, `otherwise` for a vector without length."""
+    angles = np.degrees(np.arctan2(norm(cross(a, b)), dot(a, b)))
+    return np.where((norm(a) > 0) & (norm(b) > 0), angles, otherwise)
+
+
+def _warping_factors(faces: np.ndarray) -> np.ndarray:
+    """Warping factors of quads (3, q, 4, k), (q, k); +inf for a quad without area."""
+    a, b, c, d = np.moveaxis(faces, 2, 0)
+    normal = cross(c - a, d - b)
+    area = norm(normal)  # twice that of the quad, projected along its normal
+    height = np.abs(divide(dot(b - a, normal), area, np.inf))
+    return divide(height, np.sqrt(area / 2), np.inf)
+
+
+def _corner_cosines(edges: np.ndarray) -> np.ndarray:
+    """Least cosines of the normals at opposite corners of quads with these edges (3, q, 4, k), (q, k)."""
+    normals = cross(edges, -np.roll(edges, 1, axis=2))
+    size = norm(normals)
+    opposite = np.roll(normals, 2, axis=2)
+    cosines = divide(dot(normals, opposite), size * np.roll(size, 2, axis=1), -1.0)
+    return np.clip(cosines, -1.0, 1.0).min(axis=1)
 
 
 class Measures:

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend.gallery import make
 from hexmend.gallery.five_side import DIVISIONS
-from hexmend.gallery.pairing import corner_angles, pair_triangles
-from hexmend.gallery.pentagon import CORNERS, fan, pentagon, subdivide
+from hexmend.gallery.pentagon import CORNERS, corner_angles, fan, pair_triangles, pentagon, subdivide
 from hexmend.quality import summarise
 from hexmend_app.state.mesh.structure import find_structure
 

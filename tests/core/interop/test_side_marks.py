@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.interop.side_marks import with_side_marks, with_side_sets
+from hexmend.interop.conversion import with_side_marks, with_side_sets
 from tests.core.grids import grid
 
 

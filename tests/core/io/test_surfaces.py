@@ -7,7 +7,7 @@ from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
-from hexmend.io.surfaces.merge_points import merge_points
+from hexmend.io.surfaces.read import merge_points
 from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION
 from tests.core.io.vtk_writers import by_vtk
 

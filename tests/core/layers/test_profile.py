@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.layers import find_layers
-from hexmend.layers.profile import first_height, fitted_lengths
+from hexmend.layers.targets import first_height, fitted_lengths
 from hexmend.target import given_lengths
 from tests.core.layers.stacks import stack
 

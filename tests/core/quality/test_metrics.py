@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
 from hexmend.quality import METRICS, measure, metric_statistics
-from hexmend.quality.statistics import MetricStatistics
+from hexmend.quality.summary import MetricStatistics
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

@@ -10,9 +10,8 @@ from hexmend.cli.main import main
 from hexmend.doctor import PROBLEMS
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_NODE_WEIGHTS, NODE_POSITIONS, jacobian_range
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS, NODE_POSITIONS, jacobian_range, lagrange
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
-from hexmend.mesh.second_order.shape_functions import lagrange
 from hexmend.quality import measure, summarise
 from hexmend.quality.validity import Validity, certify, jacobian_bounds, least_jacobian
 from hexmend.run import iterate

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from hexmend.errors import FileError
 from hexmend.quantity import format_significant
 from hexmend.report.comparison import LINES, comparison_table, record_table
-from hexmend.report.documents import output_folder, write_csv, write_documents
+from hexmend.report.documents import output_folder, write_documents
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
+from hexmend.report.records import write_csv
 from hexmend.report.tables import Table
 
 AWKWARD = "a_b & 50 % of #1 {x} ~ $y$ ^ \\ | <i>*[z]*</i> `c`"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.arguments.run_arguments import check_memory
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.report.documents import output_folder

@@ -6,8 +6,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
+from hexmend.cli.arguments.run_arguments import check_memory, method_and_limits, with_surface
 from hexmend.cli.output.progress import follow, show_count
 from hexmend.io import read
 from hexmend.io.storage.atomic import check_writable

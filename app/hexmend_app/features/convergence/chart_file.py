@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.report.documents import write_csv
+from hexmend.report.records import write_csv
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
 from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, colour_of, run_start
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart

@@ -10,8 +10,8 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
+from hexmend.mesh.rules.resolution import normal_of_set
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hexmend.errors import HexmendError
-from hexmend.io.surfaces.sliding import sliding_on_file
+from hexmend.io.surfaces.read import sliding_on_file
 from hexmend.parameters import declared
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.mesh.second_order import MID_EDGES, NODE_POSITIONS, lagrange
 from hexmend.mesh.second_order.curved_geometry import quad_functions
-from hexmend.mesh.second_order.mid_nodes import MID_EDGES, NODE_POSITIONS
-from hexmend.mesh.second_order.shape_functions import lagrange
 
 
 def edge_mid_nodes(hexes: np.ndarray, mid_nodes: np.ndarray, edges: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.boundary.marking import with_curve, without_curves
-from hexmend.io.surfaces.sliding import sliding_on_boundary, sliding_on_file
+from hexmend.io.surfaces.read import sliding_on_boundary, sliding_on_file
 from hexmend.mesh.fixing import fix, fix_outside, unfix
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag

@@ -6,15 +6,13 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from types import TracebackType
-from typing import TYPE_CHECKING, Self, TypeVar
+from typing import Self, TypeVar
 
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.io.storage.file_progress import watch_files
+from hexmend.iteration import Iteration
+from hexmend.run import Run
 from hexmend.run.progress import line_display, progress_display
-
-if TYPE_CHECKING:
-    from hexmend.iteration import Iteration
-    from hexmend.run import Run
 
 _Item = TypeVar("_Item")
 

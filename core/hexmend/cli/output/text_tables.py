@@ -1,4 +1,7 @@
-"""Small tables of the command line, drawn without a library: tabulate takes 0.04 s to load and removes indents."""
+"""Small tables of the command line, drawn without a library: tabulate takes 0.04 s to load and removes indents.
+
+The declaration of a method or of a generated mesh, as text.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from textwrap import fill
 
+from hexmend.parameters import declared
 from hexmend.quality import METRICS, REGRESSION_KEYS, SUMMARY_QUANTITIES, MetricStatistics, Summary, regressions
 from hexmend.quantity import format_count, format_quality
 from hexmend.report.tables import Table
@@ -91,4 +95,21 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
         print(line(head))
         print(" " + "─" * (len(line(head)) - 1))
     print("\n".join(map(line, rows)))
+    print()
+
+
+def print_parameters(name: str, kind: type) -> None:
+    """Print title, source and help of a class, and a line for each parameter that it declares.
+
+    Parameters
+    ----------
+    name : str
+        Its name on the command line.
+    kind : type
+        A smoother or a generator of the gallery.
+    """
+    print(f"{name}: {kind.title} ({kind.source})\n    {kind.help}")
+    for one in declared(kind):
+        unit = f" {one.unit}" if one.unit else ""
+        print(f"      {one.name} = {one.default}{unit}  ({one.range})  {one.help}")
     print()

@@ -1,9 +1,15 @@
-"""Content of a mesh file, the same for all formats: points, blocks of cells of one kind, data and sets."""
+"""Content of a mesh file, the same for all formats: points, blocks of cells of one kind, data and sets.
+
+Interpolation of coordinates that are not finite.
+
+Number of nodes, dimension and node order of every kind of cell, hexahedra included.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
@@ -12,13 +18,94 @@ import numpy as np
 
 from hexmend.arrays import as_immutable_owned
 from hexmend.errors import FileError
-from hexmend.io.base.cell_kinds import HEX_KINDS
 from hexmend.io.base.fixed_marks import find_marks
-from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING, interpolate_missing
 from hexmend.mesh.cells import CELL_KINDS, Cells
+from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.validation import as_hexes, as_points, check_node_numbers
 from hexmend.terminal_text import count_phrase
+
+#: Kinds of hexes and their numbers of nodes, in the order of VTK's types 12, 25 and 29.
+HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
+
+
+def node_count(kind: str) -> int:
+    """Number of nodes of a cell of a kind, one of `HEX_KINDS` or `CELL_KINDS`."""
+    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
+
+
+def dimension(kind: str) -> int:
+    """Dimension of a cell of a kind: 0 for a vertex up to 3 for a volume."""
+    return 3 if kind in HEX_KINDS else CELL_KINDS[kind].dimension
+
+
+def to_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[int] | np.ndarray]) -> np.ndarray:
+    """Reorder the nodes of cells from the order of a format to VTK's.
+
+    Parameters
+    ----------
+    nodes : (k, width) array
+    kind : str
+    order : mapping of str to (width,) int
+        vtk = format[order[kind]]; kinds without an entry have one order in both.
+
+    Returns
+    -------
+    (k, width) array
+    """
+    return nodes[:, order[kind]] if kind in order else nodes
+
+
+def from_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[int] | np.ndarray]) -> np.ndarray:
+    """Reorder the nodes of cells from VTK's order to the order of a format, the inverse of `to_vtk_order`."""
+    return nodes[:, np.argsort(order[kind])] if kind in order else nodes
+
+
+#: True while a file is read whose nodes without finite coordinates are to be interpolated.
+INTERPOLATE_MISSING: ContextVar[bool] = ContextVar("INTERPOLATE_MISSING", default=False)
+
+
+def interpolate_missing(points: np.ndarray, hexes: Sequence[np.ndarray]) -> tuple[np.ndarray, str]:
+    """Place nodes without finite coordinates at the mean of their neighbours, layer by layer from known nodes.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : sequence of (k, 8), (k, 20) or (k, 27) int array
+        Nodes of hexes of first or second order.
+
+    Returns
+    -------
+    points : (n, 3) float64
+        A copy. Nodes without any connection to a known one are at the mean of all known nodes.
+    note : str
+        A sentence for the notes of the mesh.
+    """
+    points = np.array(points, dtype=np.float64)
+    known = np.isfinite(points).all(axis=1)
+    missing = int(np.count_nonzero(~known))
+    edges = np.concatenate([nodes[:, pair] for nodes in hexes for pair in _neighbours(nodes.shape[1])])
+    edges = np.concatenate([edges, edges[:, ::-1]])
+    points[~known] = points[known].mean(axis=0) if known.any() else 0.0
+    while not known.all():
+        front = edges[~known[edges[:, 0]] & known[edges[:, 1]]]
+        if not len(front):
+            break
+        total = np.zeros_like(points)
+        np.add.at(total, front[:, 0], points[front[:, 1]])
+        count = np.bincount(front[:, 0], minlength=len(points))
+        found = np.flatnonzero(count)
+        points[found] = total[found] / count[found, None]
+        known[found] = True
+    return points, f"{count_phrase(missing, 'node')} had no finite coordinates: placed between their neighbours."
+
+
+def _neighbours(width: int) -> list[tuple[int, int]]:
+    """Pairs of adjacent nodes of a hex with `width` nodes: edges, and each mid-node with the corners around it."""
+    edges = [(int(a), int(b)) for a, b in EDGES]
+    return edges + [(k, int(corner)) for k in range(8, width) for corner in np.flatnonzero(MID_NODE_WEIGHTS[k - 8])]
+
 
 #: Name of the data that hold the file's own numbers of nodes and cells.
 ID = "id"

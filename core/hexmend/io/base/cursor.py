@@ -12,8 +12,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.storage.binary_rows import gather_integers, read_blocks, read_rows
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes, gather_integers, read_blocks, read_rows
 from hexmend.io.storage.file_progress import report
 
 _NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.kernels import decimals
-
-if TYPE_CHECKING:
-    from hexmend.io.storage.file_bytes import FileBytes
 
 #: Rows that are formatted at a time, which limits the memory for the text of a large mesh.
 CHUNK_ROWS = 65536

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
+from hexmend.io.coordinates.located import LocatedCoordinates
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
-
-if TYPE_CHECKING:
-    from hexmend.io.coordinates.located import LocatedCoordinates
 
 
 class Capability(Enum):

@@ -1,4 +1,7 @@
-"""Access to HDF5 files: readers run in a subprocess, links to other files are refused, and sizes are bounded."""
+"""Access to HDF5 files: readers run in a subprocess, links to other files are refused, and sizes are bounded.
+
+HDF5 files that are written: a file system that fails, such as a full disk, does not crash the library.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import math
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import FileIO
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +19,7 @@ from hexmend.io.base.content import Content
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.storage.binary_rows import row_blocks
 from hexmend.io.storage.file_progress import advance
+from hexmend.signal_guard import UNINTERRUPTED_CODE
 from hexmend.terminal_text import printable
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
@@ -22,7 +27,8 @@ MAGIC = b"\x89HDF\r\n\x1a\n"
 _ONE_FILE = "Write all data into one file with the program that made it (links: HDF5's h5copy -f ext)."
 
 #: Exceptions of h5py for damaged files.
-_FAILURES = (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError)
+_WRONG_KIND = TypeError, AttributeError, OverflowError
+_FAILURES = OSError, RuntimeError, ValueError, LookupError, *_WRONG_KIND
 
 #: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
 _LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
@@ -69,13 +75,17 @@ def library_errors(path: Path) -> Iterator[None]:
     except _FAILURES as error:
         if getattr(error, "filename", None):  # of a file that is written
             raise
-        detail = " ".join(str(error).split())[:160]
-        raise FileError(path, f"the HDF5 library cannot read it ({detail})", DAMAGED) from None
+        problem = f"cannot be read as HDF5 ({' '.join(str(error).split())[:160]})"
+        if isinstance(error, _WRONG_KIND):  # a link to nothing, an attribute of another type
+            problem = "holds groups or attributes that its format does not have"
+        raise FileError(path, problem, DAMAGED) from None
 
 
 @contextmanager
 def open_file(path: Path) -> Iterator[object]:
     """Open a file for a `with` statement; every reader of a format on HDF5 does it by this function.
+
+    Errors of the library in the block become a `FileError`.
 
     Yields
     ------
@@ -84,13 +94,11 @@ def open_file(path: Path) -> Iterator[object]:
     Raises
     ------
     FileError
-        Where the library cannot open the file, or a part of it lies in another file.
+        Where the library cannot read the file, or a part of it lies in another file.
     """
     import h5py
 
-    with library_errors(path):
-        file = h5py.File(path, "r")
-    with file:
+    with library_errors(path), h5py.File(path, "r") as file:
         _check_self_contained(path, file)
         yield file
 
@@ -102,8 +110,7 @@ def _check_self_contained(path: Path, file: object) -> None:
     Soft links stay inside the file. A virtual dataset is refused even if its sources lie in the same file: no writer
     of these formats makes one, and a dataset that refers to itself crashes the library.
     """
-    with library_errors(path):
-        problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(file)), "")
+    problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(file)), "")
     if problem:
         raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
 
@@ -165,7 +172,7 @@ def _title(name: bytes | str) -> str:
     return repr(f"{name[:80]}..." if len(name) > 80 else name)
 
 
-def read_dataset(path: Path, dataset: object) -> np.ndarray:
+def read_dataset(path: Path, dataset: object, row: int | None = None) -> np.ndarray:
     """Read a dataset after a check that it is not larger than a file of this size can hold.
 
     Parameters
@@ -173,6 +180,8 @@ def read_dataset(path: Path, dataset: object) -> np.ndarray:
     path : Path
         Of the file.
     dataset : h5py.Dataset
+    row : int, optional
+        The only row that is read, such as a time step.
 
     Returns
     -------
@@ -181,15 +190,15 @@ def read_dataset(path: Path, dataset: object) -> np.ndarray:
     Raises
     ------
     FileError
-        For a dataset that is too large or damaged.
+        For a dataset that is too large.
     """
     bound = max(_ALWAYS_READ, _LARGEST_RATIO * os.path.getsize(path))
-    with library_errors(path):
-        size, width = dataset.size, dataset.dtype.itemsize
-        if size is not None and size * width <= bound:
-            values = dataset[()]
-            advance(size * width, os.path.getsize(path))
-            return values
+    size = dataset.size if row is None else math.prod(dataset.shape[1:])
+    n_bytes = None if size is None else size * dataset.dtype.itemsize
+    if n_bytes is not None and n_bytes <= bound:
+        values = dataset[() if row is None else row]
+        advance(n_bytes, os.path.getsize(path))
+        return values
     problem = f"{dataset.name} would have {size} values: more than a file of its size holds"
     raise FileError(path, problem, "Write the file again without compression, if it is true.")
 
@@ -227,3 +236,72 @@ def text_of(value: str | bytes) -> str:
     """Decode a text of a file: up to the first zero byte, stripped."""
     value = value if isinstance(value, str) else bytes(value).decode("utf-8", errors="replace")
     return value.split("\0")[0].strip()
+
+
+@contextmanager
+def writable_file(path: Path, mode: str = "w") -> Iterator[object]:
+    """Open a file to be written, for a `with` statement; groups keep the order of their members.
+
+    Yields
+    ------
+    h5py.File
+
+    Raises
+    ------
+    OSError
+        Where the file system fails, once the file is closed.
+    """
+    import h5py
+
+    with _FailureKeepingFile(path, f"{mode}+".replace("++", "+")) as target:
+        with h5py.File(target, mode, track_order=True) as file:
+            yield file
+        if target.error is not None:
+            raise OSError(target.error.errno, target.error.strerror, str(path))
+
+
+class _FailureKeepingFile(FileIO):
+    """File that keeps the error of a write, and lets the library go on, which would crash later otherwise.
+
+    Attributes
+    ----------
+    error : OSError or None
+        The first one; nothing is written after it.
+    """
+
+    error: OSError | None = None
+
+    def write(self, data: bytes) -> int:
+        """Write all bytes."""
+        view = memoryview(data).cast("B")
+        done = 0
+        try:
+            while self.error is None and done < len(view):
+                done += super().write(view[done:])
+        except OSError as error:
+            self.error = error
+        return len(view)
+
+    def truncate(self, size: int | None = None) -> int:
+        """Change the size of the file."""
+        try:
+            return super().truncate(size) if self.error is None else size
+        except OSError as error:
+            self.error = error
+            return size
+
+    def readinto(self, buffer: memoryview) -> int:
+        """Fill a buffer, with zeros where nothing was written."""
+        view = memoryview(buffer).cast("B")
+        done = super().readinto(view)
+        if self.error is not None and done < len(view):
+            view[done:] = bytes(len(view) - done)
+            done = len(view)
+        return done
+
+
+# The library calls them, and would lose an exception of Ctrl-C: it is raised soon after.
+UNINTERRUPTED_CODE.update(
+    method.__code__
+    for method in (_FailureKeepingFile.write, _FailureKeepingFile.truncate, _FailureKeepingFile.readinto)
+)

@@ -7,8 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import node_count
-from hexmend.io.base.content import Content
+from hexmend.io.base.content import Content, node_count
 from hexmend.io.base.format import Capability
 from hexmend.mesh.mesh import Mesh
 

@@ -16,10 +16,14 @@ corner 0.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from hexmend.errors import FileError
+from hexmend.io.base.content import Block
 from hexmend.mesh.hexahedron import FACES
 
 #: Loops of the faces of each kind as seen from inside, base first, in OpenVolumeMesh's order for hexes.
@@ -148,6 +152,15 @@ def _nodes_of(
     right &= (np.diff(np.sort(nodes, axis=1), axis=1) > 0).all(axis=1)
     right &= 1 + (np.diff(np.sort(begin, axis=1), axis=1) > 0).sum(axis=1) == nodes.shape[1]
     return which[right], nodes[right]
+
+
+def check_distinct_nodes(path: Path, blocks: Iterable[Block], consequence: str) -> None:
+    """Raise `FileError` for a cell that has a node twice, which the file cannot hold for the given reason."""
+    for block in blocks:
+        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
+        if twice.size:
+            problem = f"{block.kind} {twice[0]} has a node twice, so that {consequence}"
+            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
 
 
 def faces_from_cells(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarray, RaggedArray]:

@@ -1,4 +1,13 @@
-"""Advice that readers of several formats give in their errors."""
+"""Advice that readers of several formats give in their errors.
+
+Notes on content of a file that is not part of its mesh: a file that is written anew does not have it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from hexmend.terminal_text import count_phrase
 
 #: For a file whose content contradicts itself or ends early.
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
@@ -11,3 +20,57 @@ def check_suffix(kind: str) -> str:
     'Check that this is a Gmsh file; if not, correct its suffix.'
     """
     return f"Check that this is {kind}; if not, correct its suffix."
+
+
+_BEGIN = "Not read: "
+
+
+def unread_note(content: str) -> str:
+    """Return the note of a reader on content that it does not read.
+
+    Parameters
+    ----------
+    content : str
+        A phrase such as "sections ($Comments)".
+
+    Examples
+    --------
+    >>> unread_note("2 cells of type POLYGON")
+    'Not read: 2 cells of type POLYGON.'
+    """
+    return f"{_BEGIN}{content}."
+
+
+def unread_content(notes: Iterable[str]) -> list[str]:
+    """Return the phrases of all notes by `unread_note`.
+
+    Parameters
+    ----------
+    notes : iterable of str
+        Of a mesh that was read.
+
+    Examples
+    --------
+    >>> unread_content(["The mesh was turned.", unread_note("2 cells of type POLYGON")])
+    ['2 cells of type POLYGON']
+    """
+    return [note.removeprefix(_BEGIN).removesuffix(".") for note in notes if note.startswith(_BEGIN)]
+
+
+def some_names(names: Iterable[str], count: int = 6) -> str:
+    """Join the first names of many.
+
+    Parameters
+    ----------
+    names : iterable of str
+    count : int
+        Most names that are joined.
+
+    Examples
+    --------
+    >>> some_names("abcd", 2), some_names("abc", 2), some_names("ab", 2)
+    ('a, b and 2 others', 'a, b and 1 other', 'a, b')
+    """
+    names = list(names)
+    more = len(names) - count
+    return ", ".join(names[:count]) + (f" and {count_phrase(more, 'other')}" if more > 0 else "")

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import dimension, node_count
-from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
+from hexmend.io.base.capabilities import altered_names, make_unique
+from hexmend.io.base.content import HEX_KINDS, Block, Content, dimension, from_mesh, node_count
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, row_chunks
@@ -18,7 +18,6 @@ from hexmend.io.base.format import Capability, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.remedies import check_suffix
-from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.mesh.mesh import Mesh
 

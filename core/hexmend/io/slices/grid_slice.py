@@ -11,32 +11,20 @@ import numpy as np
 from hexmend.io.formats.vtk.grid import Grid
 
 
-@dataclass(frozen=True, eq=False)
-class GridSlice:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class GridSlice(Grid):
     """Some cells and some nodes of a grid, not necessarily the nodes of these cells.
+
+    `nodes` are numbers in the whole grid, and all slices of a file have the same arrays of data.
 
     Parameters
     ----------
     node_ids, cell_ids : (k,) or (c,) int64
         Their numbers in the whole grid.
-    points : (k, 3) float64
-    types : (c,) uint8
-    start : (c + 1,) int64
-        Cell i has the nodes nodes[start[i]:start[i + 1]].
-    nodes : (start[-1],) int64
-        Numbers in the whole grid.
-    node_data, cell_data : mapping of str to (k, ...) or (c, ...) array
-        The same arrays in all slices of a file.
     """
 
     node_ids: np.ndarray
-    points: np.ndarray
-    node_data: Mapping[str, np.ndarray]
     cell_ids: np.ndarray
-    types: np.ndarray
-    start: np.ndarray
-    nodes: np.ndarray
-    cell_data: Mapping[str, np.ndarray]
 
 
 class SlicedFile(Protocol):
@@ -73,18 +61,9 @@ def slice_of(files: Sequence[SlicedFile], part: int, count: int) -> GridSlice:
         numbers = np.asarray(grid.nodes, np.int64)
         if ids is not None:
             node_ids, cell_ids, numbers = ids[0][nodes], ids[1][cells], ids[0][numbers]
-        found.append(
-            GridSlice(
-                node_ids,
-                grid.points,
-                grid.node_data,
-                cell_ids,
-                np.asarray(grid.types).astype(np.uint8),
-                np.asarray(grid.start, np.int64),
-                numbers,
-                grid.cell_data,
-            )
-        )
+        types, start = np.asarray(grid.types).astype(np.uint8), np.asarray(grid.start, np.int64)
+        cells_alone = {"types": types, "start": start, "nodes": numbers}
+        found.append(GridSlice(**vars(grid) | cells_alone, node_ids=node_ids, cell_ids=cell_ids))
     return found[0] if len(found) == 1 else _joined(found)
 
 
@@ -111,13 +90,5 @@ def _joined(parts: Sequence[GridSlice]) -> GridSlice:
         return np.concatenate([getattr(part, name) for part in parts])
 
     start = np.concatenate([[0], *(part.start[1:] + begin for part, begin in zip(parts, starts, strict=False))])
-    return GridSlice(
-        rows("node_ids"),
-        rows("points"),
-        data("node_data"),
-        rows("cell_ids"),
-        rows("types"),
-        start,
-        rows("nodes"),
-        data("cell_data"),
-    )
+    arrays = {name: rows(name) for name in ("node_ids", "points", "cell_ids", "types", "nodes")}
+    return GridSlice(start=start, node_data=data("node_data"), cell_data=data("cell_data"), **arrays)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.formats.vtk.grid import Grid
-from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID
+from hexmend.io.formats.vtk.merge_grids import CELL_ID, NODE_ID
 from hexmend.io.formats.vtk.vtu import read_field
 from hexmend.io.formats.vtk.xml_arrays import COMPRESSORS, read_range
 from hexmend.io.formats.vtk.xml_document import Document, XMLElement
@@ -60,7 +60,7 @@ class VTUSlices:
     def read(self, nodes: slice, cells: slice) -> Grid:
         """See `SlicedFile.read`."""
         with Document(self._path, "UnstructuredGrid") as document:
-            arrays = {array.get("Name"): array for array in self._piece.first("Cells").arrays()}
+            arrays = self._piece.first("Cells").arrays_by_name()
             types = read_range(document, arrays["types"], cells.start, cells.stop)
             first = max(cells.start - 1, 0)
             ends = read_range(document, arrays["offsets"], first, cells.stop).astype(np.int64)
@@ -79,16 +79,13 @@ class VTUSlices:
     @cached_property
     def _ids(self) -> tuple[np.ndarray, np.ndarray]:
         with Document(self._path, "UnstructuredGrid") as document:
-            nodes, cells = (
-                next(array for array in self._piece.first(section).arrays() if array.get("Name") == name)
-                for section, name in (("PointData", NODE_ID), ("CellData", CELL_ID))
-            )
-            found = read_range(document, nodes, 0, self.n_nodes), read_range(document, cells, 0, self.n_cells)
-        return found[0].astype(np.int64), found[1].astype(np.int64)
+            nodes, cells = (self._piece.first(name).arrays_by_name() for name in ("PointData", "CellData"))
+            node_ids = read_range(document, nodes[NODE_ID], 0, self.n_nodes)
+            cell_ids = read_range(document, cells[CELL_ID], 0, self.n_cells)
+        return node_ids.astype(np.int64), cell_ids.astype(np.int64)
 
     def _data(self, document: Document, section: str, rows: slice) -> dict[str, np.ndarray]:
-        arrays = {array.get("Name"): array for array in self._piece.first(section).arrays()}
-        own = (NODE_ID, CELL_ID) if self._is_piece else ()
+        arrays, own = self._piece.first(section).arrays_by_name(), (NODE_ID, CELL_ID) if self._is_piece else ()
         return {name: self._rows(document, array, rows) for name, array in arrays.items() if name not in own}
 
     def _rows(self, document: Document, array: XMLElement, rows: slice) -> np.ndarray:

@@ -12,10 +12,9 @@ from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Content
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.storage.file_progress import (
     FileAction,
@@ -36,18 +35,19 @@ MEMORY, MEMORY_PER_BYTE = 4 << 30, 64
 _CHILDS_SHARE, _POLL = 0.7, 0.1
 
 
-def run_reader(reader: str, path: Path) -> Content:
+def run_reader(reader: str, path: Path) -> Any:
     """Call the function that reads a file in a subprocess.
 
     Parameters
     ----------
     reader : str
-        "module:function"; the function takes the path and returns a `Content`.
+        "module:function"; the function takes the path and returns what can be sent to another process.
     path : Path
 
     Returns
     -------
-    Content
+    object
+        What the function returns.
 
     Raises
     ------

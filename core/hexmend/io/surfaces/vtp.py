@@ -27,7 +27,7 @@ def _polygons(document: Document) -> Polygons:
         if document.count(piece, "NumberOfStrips"):
             raise document.error("holds triangle strips: expected polygons", "Convert them to triangles.")
         if document.count(piece, "NumberOfPolys"):
-            arrays = {array.get("Name"): array for array in piece.first("Polys").arrays()}
+            arrays = piece.first("Polys").arrays_by_name()
             nodes, ends = (read_values(document, arrays[name]).astype(np.int64) for name in ("connectivity", "offsets"))
             faces += group_by_width(np.concatenate([[0], ends]), nodes + before)
         before += len(points[-1])

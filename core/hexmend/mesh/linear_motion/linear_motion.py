@@ -17,14 +17,6 @@ from hexmend.mesh.validation import as_array, as_integers, as_reals
 _MATRIX_ERROR = 1e-6
 
 
-def _no_nodes() -> np.ndarray:
-    return np.empty(0, np.int32)
-
-
-def _no_matrices() -> np.ndarray:
-    return np.empty((0, 3, 3))
-
-
 @dataclass(frozen=True, eq=False)
 class LinearMotion:
     """Linear constraints on the displacements of nodes: they move in planes, along lines, or as others do.
@@ -58,11 +50,11 @@ class LinearMotion:
     ([3, 4], [2, 1])
     """
 
-    nodes: np.ndarray = field(default_factory=_no_nodes)
-    projectors: np.ndarray = field(default_factory=_no_matrices)
-    tied: np.ndarray = field(default_factory=_no_nodes)
-    master: np.ndarray = field(default_factory=_no_nodes)
-    rotations: np.ndarray = field(default_factory=_no_matrices)
+    nodes: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
+    projectors: np.ndarray = field(default_factory=lambda: np.empty((0, 3, 3)))
+    tied: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
+    master: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
+    rotations: np.ndarray = field(default_factory=lambda: np.empty((0, 3, 3)))
 
     def __post_init__(self) -> None:
         nodes, tied, master = (_as_numbers(getattr(self, name), name) for name in ("nodes", "tied", "master"))

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.mesh.linear_motion.subspaces import TOLERANCE, fixed_spaces, rounded
 from hexmend.mesh.topology.components import components
 
@@ -73,8 +74,6 @@ def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> Tie
 def _roots(count: int, tied: np.ndarray, master: np.ndarray) -> np.ndarray:
     """Root of each of `count` nodes: the lowest of its component that is not tied, or else the lowest; (count,) int."""
     component = components(count, np.column_stack([tied, master]))
-    is_tied = np.zeros(count, dtype=bool)
-    is_tied[tied] = True
-    order = np.lexsort((np.arange(count), is_tied, component))
+    order = np.lexsort((np.arange(count), mask(tied, count), component))
     _, first = np.unique(component[order], return_index=True)
     return order[first][component]

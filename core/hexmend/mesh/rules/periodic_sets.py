@@ -94,7 +94,7 @@ def _candidates(
     sizes = np.linalg.norm(outward), np.linalg.norm(other_outward)
     oriented = min(sizes) > 0
     one, other = (outward / sizes[0], -other_outward / sizes[1]) if oriented else (frame[:, 0] for frame in frames)
-    rotations = [np.eye(3), _smallest_rotation(one, other)]
+    rotations = [np.eye(3), smallest_rotation(one, other)]
     for signs in np.ndindex(2, 2, 2):
         rotation = frames[1] @ np.diag(1.0 - 2.0 * np.array(signs)) @ frames[0].T
         rotations += [rotation] if np.linalg.det(rotation) > 0 else []
@@ -109,7 +109,7 @@ def _outward_area(mesh: Mesh, nodes: np.ndarray) -> np.ndarray:
     return np.cross(c - a, d - b).sum(axis=0) / 2
 
 
-def _smallest_rotation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def smallest_rotation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Rotation about the normal of two unit vectors that takes one to the other, (3, 3); for opposed ones none."""
     axis, cosine = np.cross(one, other), float(one @ other)
     if cosine < -1 + 1e-12:

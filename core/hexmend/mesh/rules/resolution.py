@@ -1,4 +1,7 @@
-"""Resolution of rules of motion: the nodes that the names of their sets mean in a mesh."""
+"""Resolution of rules of motion: the nodes that the names of their sets mean in a mesh.
+
+Flat sets, whose nodes move in their plane.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +14,53 @@ from hexmend.arrays import mask
 from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic
+
+#: Largest distance of nodes from their plane, in mean edge lengths of the mesh.
+FLATNESS_TOLERANCE = 1e-6
+#: Relative rounding error of coordinates in one plane.
+_ROUNDING = 1e-12
+
+
+def normal_of_set(mesh: Mesh, name: str) -> np.ndarray:
+    """Find the normal of the plane in which the nodes of a set lie.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    name : str
+        Name of a set of nodes, sides or quads.
+
+    Returns
+    -------
+    (3,) float64
+        A unit vector; an axis to the last bit if the coordinates along it are equal but for rounding.
+
+    Raises
+    ------
+    MeshError
+        For a set that does not exist, and for nodes that are on one line or further from a plane than
+        `FLATNESS_TOLERANCE`; the message says how far.
+    """
+    nodes = np.unique(nodes_in_set(mesh, name))
+    x = mesh.points[nodes]
+    unit = mesh.mean_edge_length or 1.0
+    x = (x - x.mean(axis=0)) / unit if nodes.size else x
+    axes = np.linalg.eigh(x.T @ x)[1]  # the first direction is that of least extent
+    if nodes.size < 3 or np.abs(x @ axes[:, :2]).max() <= FLATNESS_TOLERANCE:
+        few, line = f"expected three nodes or more, it has {nodes.size}", f"its {nodes.size} nodes are on one line"
+        raise MeshError(f"the set {name!r} has no plane: {few if nodes.size < 3 else line}")
+    distance = np.abs(x @ axes[:, 0])
+    if distance.max() > FLATNESS_TOLERANCE:
+        raise MeshError(
+            f"the set {name!r} is not flat: node {nodes[distance.argmax()]} (counted from 0) is {distance.max():.3g} "
+            f"mean edge lengths from the plane nearest to all its nodes; expected at most {FLATNESS_TOLERANCE:g}. Let "
+            "it slide on the surface instead (--slide)."
+        )
+    across = np.ptp(x, axis=0).argmin()
+    return np.eye(3)[across] if np.ptp(x[:, across]) <= _ROUNDING * max(1.0, np.ptp(x)) else axes[:, 0]
 
 
 def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:

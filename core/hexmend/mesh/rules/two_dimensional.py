@@ -13,6 +13,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.periodic_sets import smallest_rotation
 
 #: Types of side sets between which a mesh is one layer thick.
 EMPTY, WEDGE = "empty", "wedge"
@@ -162,9 +163,7 @@ def _rotated(mesh: Mesh, pairs: np.ndarray, first: str, second: str) -> LinearMo
     if first == second:
         raise MeshError(f"both sides of the wedge are in {first!r}: expected two side sets")
     normal, image = (_normal(mesh, name) for name in (first, second))
-    axis, cosine = np.cross(-normal, image), float(-normal @ image)
-    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    rotation = np.eye(3) + cross + cross @ cross / (1 + cosine)
+    rotation = smallest_rotation(-normal, image)
     one, other = pairs[pairs[:, 0] != pairs[:, 1]].T
     gap = mesh.points[other] - mesh.points[one] @ rotation.T
     gap -= gap.mean(axis=0) if len(gap) else 0.0  # the axis need not go through the origin

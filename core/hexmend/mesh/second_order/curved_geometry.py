@@ -85,7 +85,8 @@ def evaluate_quads(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
     MeshError
         If the quads have neither 8 nor 9 nodes.
     """
-    return _weighted(quad_functions(at, _width(nodes))[0], nodes)
+    # A product of small matrices for each element is ten times faster than one of large matrices.
+    return quad_functions(at, _width(nodes))[0] @ nodes
 
 
 def quad_nodes(points: np.ndarray, corners: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
@@ -143,8 +144,3 @@ def _width(nodes: np.ndarray) -> int:
     if nodes.ndim != 3 or nodes.shape[1] not in (8, 9) or nodes.shape[2] != 3:
         raise MeshError(f"nodes of quads have shape {nodes.shape}: expected (quads, 8 or 9, 3)")
     return nodes.shape[1]
-
-
-def _weighted(weights: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Return the sums of positions, (k, w, 3), with weights, (g, w), as (k, g, 3)."""
-    return weights @ nodes  # a product of small matrices for each element, ten times faster than one of large matrices

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.second_order.mid_nodes import MID_EDGES
+from hexmend.mesh.second_order import MID_EDGES
 
 #: Column of `mid_nodes` of the edge between two corners of a hex, -1 for diagonals, (8, 8).
 EDGE_COLUMNS = np.full((8, 8), -1)

@@ -83,6 +83,11 @@ class Topology:
         """Hex corners at each node; items are 8 * hex + corner."""
         return CSR(*incidence.node_corners(self.hexes, self.n))
 
+    @property
+    def _corners_of_nodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The hexes, and the corners at each node as two arrays, as kernels take them."""
+        return self.hexes, self.node_corners.start, self.node_corners.items
+
     @cached_property
     def overlapping_corners(self) -> CSR:
         """Corners at each node whose cones overlap if they are positive; items are 8 * hex + corner.
@@ -90,25 +95,21 @@ class Topology:
         Two faces at the node have the same two edges there, and hexes on the same side. The proof is in
         `hexmend.locking.hexes_without_valid_position`.
         """
-        rows = self.node_corners
-        return CSR(*incidence.overlapping_corners(self.hexes, rows.start, rows.items))
+        return CSR(*incidence.overlapping_corners(*self._corners_of_nodes))
 
     @property
     def hex_mesh(self) -> HexMesh:
         """The hexes and `node_corners` as the kernels of methods take them; a view, cheap to make."""
-        return HexMesh(self.hexes, self.node_corners.start, self.node_corners.items)
+        return HexMesh(*self._corners_of_nodes)
 
     @cached_property
     def used(self) -> np.ndarray:
         """True for each node that a hex uses, (n,) bool."""
-        used = np.zeros(self.n, dtype=bool)
-        used[self.hexes.ravel()] = True
-        return used
+        return mask(self.hexes.ravel(), self.n)
 
     @cached_property
     def _faces(self) -> tuple[np.ndarray, int]:
-        rows = self.node_corners
-        return incidence.face_neighbours(self.hexes, rows.start, rows.items)
+        return incidence.face_neighbours(*self._corners_of_nodes)
 
     @property
     def face_neighbours(self) -> np.ndarray:
@@ -120,8 +121,7 @@ class Topology:
         """Neighbour across each face, whatever the order in which both hexes have its nodes, (m, 6) int32."""
         if not self.n_nonmanifold_faces:
             return self.face_neighbours
-        rows = self.node_corners
-        return incidence.face_neighbours(self.hexes, rows.start, rows.items, opposed=False)[0]
+        return incidence.face_neighbours(*self._corners_of_nodes, opposed=False)[0]
 
     def release_faces(self) -> None:
         """Give back the memory of `face_neighbours`; they are computed again on the next use."""
@@ -148,9 +148,7 @@ class Topology:
     @cached_property
     def boundary(self) -> np.ndarray:
         """True for each node of a boundary face, (n,) bool."""
-        boundary = np.zeros(self.n, dtype=bool)
-        boundary[self.boundary_faces.ravel()] = True
-        return boundary
+        return mask(self.boundary_faces.ravel(), self.n)
 
     @cached_property
     def layers(self) -> np.ndarray:
@@ -200,15 +198,13 @@ class Topology:
     @cached_property
     def rings(self) -> CSR:
         """Edge neighbours of each node, ascending."""
-        rows = self.node_corners
         with overflow_as_mesh_error("neighbours of nodes"):
-            return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MAX_ITEMS))
+            return CSR(*incidence.node_rings(*self._corners_of_nodes, MAX_ITEMS))
 
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        rows = self.node_corners
         with overflow_as_mesh_error("edges"):
-            return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours, MAX_ITEMS)
+            return structure.edges(*self._corners_of_nodes, self.face_neighbours, MAX_ITEMS)
 
     @property
     def edges(self) -> np.ndarray:

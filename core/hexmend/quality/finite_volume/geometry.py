@@ -13,7 +13,7 @@ import numpy as np
 
 from hexmend.arrays import bounds
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 
 #: Number of hexes computed at a time: their arrays fit into the processor's cache.
 CHUNK = 1 << 12
@@ -67,8 +67,7 @@ def cell_geometry(points: np.ndarray, hexes: np.ndarray) -> CellGeometry:
     MeshError
         For arrays of another shape or type, and for a node that does not exist.
     """
-    points = as_points(points)
-    hexes = as_hexes(hexes, len(points))
+    points, hexes = as_points_and_hexes(points, hexes)
     x, unit = in_unit(points, hexes)
     m = len(hexes)
     face_centres, face_areas = np.empty((3, 6, m)), np.empty((3, 6, m))

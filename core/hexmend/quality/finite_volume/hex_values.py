@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
-from hexmend.mesh.validation import as_hexes, as_points
+from hexmend.mesh.validation import as_points_and_hexes
 from hexmend.quality.finite_volume.face_quality import face_quality, worst_of_hexes
 from hexmend.quality.finite_volume.geometry import cell_geometry
 from hexmend.quality.measure import ElementQuality
@@ -25,8 +25,7 @@ def of_hexes(field: str) -> Callable[[np.ndarray, np.ndarray, ElementQuality], n
     """Make the function for `Metric.of` of a field of `FaceQuality`; neighbours are those among the given hexes."""
 
     def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
-        points = as_points(points)
-        hexes = as_hexes(hexes, len(points))
+        points, hexes = as_points_and_hexes(points, hexes)
         return _values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
 
     return of

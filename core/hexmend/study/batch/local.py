@@ -20,12 +20,10 @@ class Local:
     ----------
     jobs : int
         Most tasks at a time; 0 for the number of cores that this process may use.
-    threads : int
-        Threads of each task; 0 for an equal share of the cores.
     """
 
-    def __init__(self, jobs: int = 0, threads: int = 0):
-        self._jobs, self._threads = jobs, threads
+    def __init__(self, jobs: int = 0):
+        self._jobs = jobs
 
     def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:
         """Yield each task with its answer when it is done. Closing the generator ends running tasks.
@@ -33,8 +31,7 @@ class Local:
         Unless their number is set, tasks share the cores as threads: a single task has all of them.
         """
         jobs = max(1, min(self._jobs or cores(), len(tasks)))
-        threads = self._threads or cores_for(jobs)
-        memory_mb, ending = (available() or 0) // jobs >> 20, threading.Event()
+        memory_mb, threads, ending = (available() or 0) // jobs >> 20, cores_for(jobs), threading.Event()
         with ThreadPoolExecutor(jobs) as pool:
             try:
                 running = {

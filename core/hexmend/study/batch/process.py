@@ -1,4 +1,7 @@
-"""Task in its own process: if the process crashes, its row has the reason, and other tasks continue."""
+"""Task in its own process: if the process crashes, its row has the reason, and other tasks continue.
+
+Groups of processes: a process with all that it started is ended at once.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +12,30 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict
 from time import monotonic
 from typing import IO, Any
 
 from hexmend.io.storage.subprocess_reader import last_line
-from hexmend.study.batch.process_group import end_group
 from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
+
+
+def end_group(number: int) -> None:
+    """End the leader of a process group and all of the group; does nothing if it has ended.
+
+    Parameters
+    ----------
+    number : int
+        Process id of the leader.
+    """
+    with suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(number, signal.SIGKILL)
+        else:
+            os.kill(number, signal.SIGTERM)
+
 
 #: Seconds between checks whether a task was cancelled.
 POLL_SECONDS = 0.25
@@ -77,7 +96,10 @@ def run_task(
             process.stdin.close()
         if late is None:
             return None
-        row = _late(task) if late else _answer(process.returncode, output, errors)
+        if late:
+            row = answer(Status.TIME, f"It was not done within {task.max_seconds:g} s, and was ended.")
+        else:
+            row = _answer(process.returncode, output, errors)
     return row | {"task_seconds": round(monotonic() - began, 3)}
 
 
@@ -98,10 +120,6 @@ def _wait(process: subprocess.Popen, request: str, seconds: float, cancelled: Ca
                 return None
             if monotonic() >= end:
                 return True
-
-
-def _late(task: Task) -> dict[str, Any]:
-    return answer(Status.TIME, f"It was not done within {task.max_seconds:g} s, and was ended.")
 
 
 def _answer(status: int, output: IO[bytes], errors: IO[bytes]) -> dict[str, Any]:

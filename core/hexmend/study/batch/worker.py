@@ -18,7 +18,7 @@ from hexmend.quality import measure, objective, summarise
 from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
 from hexmend.study.batch.case import Case, read_case
-from hexmend.study.batch.process_group import end_group
+from hexmend.study.batch.process import end_group
 from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task, content_hash
 

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from hexmend import io
-from hexmend.io.formats.openfoam.points import replaced_points
+from hexmend.io.formats.openfoam.foam_text import replaced_points
 from tests.app.driving import named, open_and_wait
 from tests.core.grids import grid
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass
-from hexmend.gallery.blocks import extrude
+from hexmend.gallery.gallery_mesh import extrude
 from hexmend.gallery.pentagon import fan, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure

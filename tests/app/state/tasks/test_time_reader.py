@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.io.formats.openfoam.points import replaced_points
+from hexmend.io.formats.openfoam.foam_text import replaced_points
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.laplacian.laplacian import Laplacian

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.io.base.unique_names import make_unique
+from hexmend.io.base.capabilities import make_unique
 from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 

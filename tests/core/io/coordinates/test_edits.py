@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.io.coordinates.edits import Edits, write_edited
-from hexmend.io.coordinates.number_texts import number_texts
-from hexmend.io.coordinates.text_coordinates import parse_fields
+from hexmend.io.coordinates.text_coordinates import number_texts, parse_fields
 
 
 @given(st.data())

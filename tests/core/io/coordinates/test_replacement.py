@@ -11,8 +11,7 @@ from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import Original, write_as_given
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.original import difference
-from hexmend.io.coordinates.replacement import ChangedFileError
+from hexmend.io.coordinates.replacement import ChangedFileError, difference
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
 from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import grid

@@ -8,8 +8,7 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.storage.binary_rows import read_blocks, read_rows
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes, read_blocks, read_rows
 
 DATA = np.random.default_rng(5).integers(0, 256, 300_000, dtype=np.uint8).tobytes()
 

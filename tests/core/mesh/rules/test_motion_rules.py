@@ -9,8 +9,8 @@ from hexmend.errors import MeshError, ParameterError
 from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.periodic_sets import match_periodic
+from hexmend.mesh.rules.resolution import normal_of_set
 from hexmend.run import smooth
 from tests.core.grids import grid, scrambled
 

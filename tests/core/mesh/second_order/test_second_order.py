@@ -18,9 +18,10 @@ from hexmend.mesh.second_order import (
     MID_NODE_WEIGHTS,
     NODE_POSITIONS,
     jacobian_range,
+    lagrange,
     move_mid_nodes,
+    serendipity,
 )
-from hexmend.mesh.second_order.shape_functions import lagrange, serendipity
 from hexmend.quality import summarise_second_order
 from hexmend.quality.validity import Validity, certify
 from hexmend.run import smooth

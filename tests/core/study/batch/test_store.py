@@ -4,9 +4,8 @@ import json
 
 import pytest
 
-from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import COLUMNS, Status, answer, is_answer
-from hexmend.study.batch.task import Task
+from hexmend.study.batch.task import Store, Task
 
 TASK = Task("/some/mesh.vtk", "0", {"recipe": None, "stages": []}, "0.1", max_seconds=5, max_memory_mb=100)
 

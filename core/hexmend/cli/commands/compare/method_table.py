@@ -7,8 +7,9 @@ import re
 import sys
 from pathlib import Path
 
-from hexmend.cli.arguments.checks import check_element_targets, check_memory
 from hexmend.cli.arguments.run_arguments import (
+    check_element_targets,
+    check_memory,
     given_limits,
     given_rules,
     method_settings,

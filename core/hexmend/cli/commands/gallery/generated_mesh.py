@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hexmend.cli.arguments.options import parse_settings
-from hexmend.cli.output.parameter_list import print_parameters
+from hexmend.cli.output.text_tables import print_parameters
 from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY
 from hexmend.io import write

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.cli.commands.info.judgement import Judgement
-from hexmend.cli.output.mesh_messages import print_notes
+from hexmend.cli.output.mesh_output import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
@@ -38,7 +38,10 @@ _MAX_PLACES = 10
 
 def run(args: argparse.Namespace) -> int:
     """Measure the mesh and print the report, as text or as JSON."""
-    solver = None if args.solver is None else _known_solver(args.solver)  # before a long read
+    if args.solver is not None:
+        from hexmend.solver_checks import SOLVERS  # loaded only for --for
+
+        args.solver = SOLVERS[args.solver.lower()].name  # raises before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
@@ -61,7 +64,11 @@ def run(args: argparse.Namespace) -> int:
         print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
-    checks = None if solver is None else _print_checks(mesh, solver, quality)
+    checks = _check(mesh, args.solver, quality)
+    if checks is not None:
+        from hexmend.cli.output.check_table import print_checks
+
+        print_checks(checks)
     findings = _examine(mesh, args.doctor, second_order)
     _print_problems(args, mesh, findings)
     print(printable(Judgement.of(args.mesh, quality, locking, findings, checks, second_order).line))
@@ -94,10 +101,10 @@ def _print_json(
         answer["layers"] = layers
     if locking is not None:
         answer["locking"] = locking.to_dict()
-    checks = None
-    if args.solver is not None:
-        checks, fields = _checks(mesh, args.solver, quality)
-        answer |= fields
+    checks = _check(mesh, args.solver, quality)
+    if checks is not None:
+        answer["checks"] = [result.to_dict() for result in checks.results]
+        answer |= {"solver": checks.solver.name, "verdict": checks.verdict}
     findings = _examine(mesh, args.doctor, second_order)
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in findings]
@@ -126,29 +133,13 @@ def _print_materials(mesh: Mesh) -> None:
     print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
 
 
-def _known_solver(name: str) -> str:
-    """Return the name of a solver; raises `ParameterError`, naming those that are known."""
-    from hexmend.solver_checks import SOLVERS  # loaded only for --for
+def _check(mesh: Mesh, solver: str | None, quality: ElementQuality) -> Report | None:
+    """Judge the mesh by the checks of a solver, if one is named."""
+    if solver is None:
+        return None
+    from hexmend.solver_checks import check_mesh  # loaded only for --for
 
-    return SOLVERS[name.lower()].name
-
-
-def _checks(mesh: Mesh, solver: str, quality: ElementQuality) -> tuple[Report, dict[str, object]]:
-    """Return the solver's checks, and their fields for JSON."""
-    from hexmend.solver_checks import check_mesh
-
-    report = check_mesh(mesh, _known_solver(solver), quality)
-    checks = [result.to_dict() for result in report.results]
-    return report, {"checks": checks, "solver": report.solver.name, "verdict": report.verdict}
-
-
-def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> Report:
-    from hexmend.cli.output.check_table import print_checks
-    from hexmend.solver_checks import check_mesh
-
-    report = check_mesh(mesh, solver, quality)
-    print_checks(report)
-    return report
+    return check_mesh(mesh, solver, quality)
 
 
 def _layer_line(wall: dict[str, Any]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.output.parameter_list import print_parameters
+from hexmend.cli.output.text_tables import print_parameters
 from hexmend.report.records import to_json
 from hexmend.smoothers import METHODS
 

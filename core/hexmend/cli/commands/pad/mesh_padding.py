@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from hexmend.cli.arguments.checks import check_targets
-from hexmend.cli.output.mesh_messages import print_notes
-from hexmend.cli.output.mesh_output import MeshOutput
+from hexmend.cli.arguments.run_arguments import check_targets
+from hexmend.cli.output.mesh_output import MeshOutput, print_notes
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting

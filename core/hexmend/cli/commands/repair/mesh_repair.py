@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.output.mesh_messages import print_notes
-from hexmend.cli.output.mesh_output import MeshOutput
+from hexmend.cli.output.mesh_output import MeshOutput, print_notes
 from hexmend.doctor import PROBLEMS, examine, repair
 from hexmend.io import read, writer_for
 

@@ -4,32 +4,24 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import (
-    add_curves,
-    add_force,
-    add_mesh,
-    add_method,
-    add_motion,
-    add_rewrite,
-    add_surface,
-)
+from hexmend.cli.arguments import options
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    add_mesh(parser)
+    options.add_mesh(parser)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
-    add_rewrite(parser)
-    add_method(parser)
-    add_surface(parser)
-    add_motion(parser)
-    add_curves(parser)
+    options.add_rewrite(parser)
+    options.add_method(parser)
+    options.add_surface(parser)
+    options.add_motion(parser)
+    options.add_curves(parser)
     parser.add_argument("--only", metavar="SET", help="smooth only the hexes of this set, or 'inverted' ones")
     text = "with --only: also K rings of hexes around (default 1)"
     parser.add_argument("--rings", metavar="K", type=int, help=text)
-    add_force(parser)
+    options.add_force(parser)
     text = "write the mesh at this interval to OUT's name with .checkpoint, removed once OUT is written"
     parser.add_argument("--checkpoint", metavar="MINUTES", type=float, help=text)
     parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")

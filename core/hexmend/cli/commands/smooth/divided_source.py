@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import motion_rules
-from hexmend.cli.commands.smooth.agreement import AgreedError, agreed
+from hexmend.cli.arguments.run_arguments import check_memory, motion_rules
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
-from hexmend.cli.commands.smooth.rank_result import RankResult
+from hexmend.cli.commands.smooth.rank_result import AgreedError, RankResult, agreed
 from hexmend.cli.commands.smooth.whole_source import finish_alone
-from hexmend.cli.output.mesh_messages import print_losses
+from hexmend.cli.output.mesh_output import print_losses
 from hexmend.errors import ParameterError
 from hexmend.io.format_lookup import writable_format
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, names_taken

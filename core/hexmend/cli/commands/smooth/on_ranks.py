@@ -11,11 +11,10 @@ from importlib import import_module
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from hexmend.cli.arguments.checks import check_targets
-from hexmend.cli.arguments.run_arguments import method_and_limits
-from hexmend.cli.commands.smooth.agreement import AgreedError, agreed
+from hexmend.cli.arguments.run_arguments import check_targets, method_and_limits
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.divided_source import DividedSource
+from hexmend.cli.commands.smooth.rank_result import AgreedError, agreed
 from hexmend.cli.commands.smooth.whole_source import WholeSource
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import ExitAfterIteration

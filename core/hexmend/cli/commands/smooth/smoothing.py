@@ -11,14 +11,18 @@ from importlib import import_module
 import numpy as np
 
 from hexmend.advice import advise
-from hexmend.cli.arguments.checks import check_memory, check_targets
 from hexmend.cli.arguments.options import DEFAULT_RINGS
-from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
+from hexmend.cli.arguments.run_arguments import (
+    check_memory,
+    check_targets,
+    method_and_limits,
+    motion_rules,
+    with_surface,
+)
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
-from hexmend.cli.output.mesh_messages import print_notes, print_problems
-from hexmend.cli.output.mesh_output import MeshOutput
+from hexmend.cli.output.mesh_output import MeshOutput, print_notes, print_problems
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting

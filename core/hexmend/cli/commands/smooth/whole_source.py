@@ -9,14 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.boundary import departures, surface_change
-from hexmend.cli.arguments.checks import check_memory
-from hexmend.cli.arguments.run_arguments import motion_rules, with_surface
-from hexmend.cli.commands.smooth.agreement import agreed
+from hexmend.cli.arguments.run_arguments import check_memory, motion_rules, with_surface
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
-from hexmend.cli.commands.smooth.rank_result import RankResult
+from hexmend.cli.commands.smooth.rank_result import RankResult, agreed
 from hexmend.cli.commands.smooth.second_order import SecondOrderChange
-from hexmend.cli.output.mesh_messages import print_notes, print_problems
-from hexmend.cli.output.mesh_output import MeshOutput
+from hexmend.cli.output.mesh_output import MeshOutput, print_notes, print_problems
 from hexmend.io import read
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh

@@ -20,8 +20,8 @@ from hexmend.study.batch.local import Local
 from hexmend.study.batch.mesh_files import find_meshes
 from hexmend.study.batch.plan import read_plan
 from hexmend.study.batch.runner import StudyProgress, StudyResult, Workers, run_study
-from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import COLUMNS
+from hexmend.study.batch.task import Store
 from hexmend.study.machine import machine
 from hexmend.terminal_text import printable
 

@@ -7,17 +7,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.remedies import check_suffix
-from hexmend.io.coordinates.unread import some_names, unread_note
+from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
-from hexmend.io.formats.abaqus.model import Instance, Part
-from hexmend.io.formats.abaqus.sets import MemberBudget, SetLookup, name_key
+from hexmend.io.formats.abaqus.model import Instance, MemberBudget, Part, SetLookup, name_key
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +12,8 @@ from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields,
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.included_output import write_files
 from hexmend.io.formats.abaqus.includes import read_deck
-from hexmend.io.formats.abaqus.model import Instance, Part, placement
-from hexmend.io.formats.abaqus.sets import name_key
+from hexmend.io.formats.abaqus.model import Instance
+from hexmend.io.formats.abaqus.reader import read_node_cards
 from hexmend.io.storage.atomic import AtomicFiles
 
 #: Characters of a real number that Abaqus and CalculiX read.
@@ -26,15 +25,7 @@ _ROUNDING = 1e-9
 def locate(path: Path) -> AbaqusCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
     deck = read_deck(path)
-    return AbaqusCoordinates(deck, _placed_cards(deck))
-
-
-@dataclass(frozen=True, eq=False)
-class _PlacedCards:
-    """The *NODE cards of an instance, or of the assembly: an instance without a name."""
-
-    instance: Instance
-    cards: tuple[Card, ...]
+    return AbaqusCoordinates(deck, read_node_cards(deck))
 
 
 class AbaqusCoordinates:
@@ -43,34 +34,34 @@ class AbaqusCoordinates:
     Parameters
     ----------
     deck : Deck
-    placed : list of _PlacedCards
-        In the order of the mesh's nodes.
+    instances : list of Instance
+        With their *NODE cards, in the order of the mesh's nodes.
     """
 
-    def __init__(self, deck: Deck, placed: list[_PlacedCards]):
-        self._deck, self._placed = deck, placed
+    def __init__(self, deck: Deck, instances: list[Instance]):
+        self._deck, self._instances = deck, instances
         self._rows: dict[int, np.ndarray] = {}  # by the line of the card
         self._fields: dict[int, TextFields] = {}
         self._parsed = True
-        for one in placed:
-            for card in one.cards:
+        for instance in instances:
+            for card in instance.part.node_cards:
                 if card.line not in self._rows:
                     self._rows[card.line] = self._parse(card)
-                one.instance.part.points.append(self._rows[card.line])
-        self.points = np.concatenate([one.instance.points() for one in placed])
+                instance.part.points.append(self._rows[card.line])
+        self.points = np.concatenate([instance.points() for instance in instances])
 
     def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the deck and its files with new coordinates; see `LocatedFiles.write_files`."""
         file = files.add(target)
         new_rows: dict[int, np.ndarray] = {}
         first = 0
-        for one in self._placed:
-            for line in (card.line for card in one.cards):
+        for instance in self._instances:
+            for line in (card.line for card in instance.part.node_cards):
                 own = slice(first, first + len(self._rows[line]))
                 first = own.stop
-                rows = _in_part(one.instance, self.points[own], points[own], self._rows[line])
+                rows = _in_part(instance, self.points[own], points[own], self._rows[line])
                 if line in new_rows and not _same(new_rows[line], rows):
-                    name = quoted(one.instance.part.name)
+                    name = quoted(instance.part.name)
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
                 new_rows.setdefault(line, rows)
         given = np.concatenate(list(self._rows.values()))
@@ -87,31 +78,6 @@ class AbaqusCoordinates:
         rows = parse_fields(self._deck.given, fields.begin.ravel(), fields.end.ravel())
         self._parsed &= rows is not None
         return self._deck.nodes(card)[1] if rows is None else rows.reshape(-1, 3)
-
-
-def _placed_cards(deck: Deck) -> list[_PlacedCards]:
-    """Cards of the nodes of all instances, or of all parts where there are no instances, and of the assembly."""
-    assembly: list[Card] = []
-    parts: dict[str, tuple[str, list[Card]]] = {}
-    instances: list[tuple[Instance, list[Card], list[Card]]] = []
-    cards = assembly
-    for card in deck.cards():
-        if card.name == "NODE":
-            cards.append(card)
-        elif card.name == "PART":
-            cards = []
-            parts[name_key(card.options.get("NAME", ""))] = (card.options.get("NAME", ""), cards)
-        elif card.name == "INSTANCE":
-            name, of_part = parts[name_key(card.options.get("PART", ""))]
-            cards = []
-            instance = Instance("", Part(name), *placement(deck, deck.fields(card)))
-            instances.append((instance, of_part, cards))
-        elif card.name in ("END PART", "END INSTANCE"):
-            cards = assembly
-    if not instances:
-        instances = [(Instance(name, Part(name)), own, []) for name, own in parts.values()]
-    placed = [_PlacedCards(instance, (*of_part, *own)) for instance, of_part, own in instances]
-    return [*placed, _PlacedCards(Instance("", Part("")), tuple(assembly))]
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:

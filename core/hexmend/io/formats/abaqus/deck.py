@@ -1,10 +1,13 @@
-"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow."""
+"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow.
+
+Files of an Abaqus deck, and their parts in the text that joins them.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -12,7 +15,62 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.formats.abaqus.deck_file import Piece
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """Name of an included file in the file that includes it.
+
+    Parameters
+    ----------
+    parent : DeckFile
+    begin, end : int
+        Byte range of the name in the parent, with quotes if it has them.
+    name : str
+        The name without quotes.
+    """
+
+    parent: DeckFile
+    begin: int
+    end: int
+    name: str
+
+
+@dataclass(eq=False)
+class DeckFile:
+    """The deck or a file that it includes; a file that is included twice is two of them.
+
+    Parameters
+    ----------
+    path : Path
+    data : bytes
+        Its content.
+    reference : Reference or None
+        None for the deck itself.
+    included : list of DeckFile
+    """
+
+    path: Path
+    data: bytes
+    reference: Reference | None = None
+    included: list[DeckFile] = field(default_factory=list)
+
+    def walk(self) -> Iterator[DeckFile]:
+        """Iterate over the file and all files that it includes, included ones last."""
+        yield self
+        for one in self.included:
+            yield from one.walk()
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Part of a file in the joined text: its offset there and in the file, and its length."""
+
+    file: DeckFile
+    begin: int
+    file_begin: int
+    length: int
+
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
@@ -54,7 +112,7 @@ class Deck:
     data : bytes
         Content of the file, joined with those that it includes.
     pieces : sequence of Piece
-        Parts of files in the content, see `hexmend.io.formats.abaqus.deck_file`; empty for a file without others.
+        Parts of files in the content, see `hexmend.io.formats.abaqus.deck`; empty for a file without others.
     hidden : sequence of tuple of int
         Byte ranges of the lines that include a file, which are read as blank: the data lines of a keyword may follow.
 
@@ -188,8 +246,8 @@ def _split_keyword(head: str) -> tuple[str, dict[str, str]]:
     """Keyword and parameters of a keyword line."""
     fields = _split_fields(head.strip().lstrip("*").strip())
     options = {}
-    for field in fields[1:]:
-        key, _, value = field.partition("=")
+    for one in fields[1:]:
+        key, _, value = one.partition("=")
         options[" ".join(key.upper().split())] = value.strip()
     return " ".join((fields[0] if fields else "").upper().split()), options
 

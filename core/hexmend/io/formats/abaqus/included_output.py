@@ -13,8 +13,7 @@ import numpy as np
 from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
-from hexmend.io.formats.abaqus.deck import Deck
-from hexmend.io.formats.abaqus.deck_file import DeckFile, Reference
+from hexmend.io.formats.abaqus.deck import Deck, DeckFile, Reference
 from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic import AtomicFiles
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io.base.cursor import quoted, read_text_bytes
-from hexmend.io.formats.abaqus.deck import Card, Deck
-from hexmend.io.formats.abaqus.deck_file import DeckFile, Piece, Reference
-from hexmend.io.formats.abaqus.sets import unquoted
+from hexmend.io.formats.abaqus.deck import Card, Deck, DeckFile, Piece, Reference
+from hexmend.io.formats.abaqus.model import unquoted
 from hexmend.io.storage.readable import check_readable
 
 #: Keywords whose data lines may be in another file.

@@ -1,16 +1,176 @@
-"""Parts and instances of an Abaqus file."""
+"""Parts and instances of an Abaqus file.
+
+Sets of an Abaqus file: their definitions, and the members that they have once everything is read.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import node_count
+from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.abaqus.deck import Card, Deck
-from hexmend.io.formats.abaqus.sets import SetDefinition, merged_sets
+
+#: Members that all sets may have for each byte of the file, and members that are never too many.
+_MEMBERS_PER_BYTE, _ALWAYS_ALLOWED = 20, 1_000_000
+#: Levels of sets that are members of sets.
+_MAX_DEPTH = 100
+
+
+def is_number(word: str) -> bool:
+    """Return True for a natural number that fits into 64 bits."""
+    return word.isascii() and word.isdigit() and len(word) < 19
+
+
+def name_key(name: str) -> str:
+    """Key by which names are compared: quoted names as they are, others in upper case."""
+    name = name.strip()
+    return name[1:-1] if len(name) > 1 and name[0] == name[-1] == '"' else name.upper()
+
+
+def unquoted(name: str) -> str:
+    """Name without the quotes around it."""
+    return name.strip().strip('"')
+
+
+@dataclass(eq=False)
+class SetDefinition:
+    """Data lines of a set, whose members are looked up once everything is read.
+
+    Parameters
+    ----------
+    title : str
+        Name of the set as the file has it, without quotes.
+    entries : list of str
+        Numbers of members and names of other sets.
+    ranges : list of (first, last, step)
+        Data lines of GENERATE.
+    ids : list of (k,) int64 arrays
+        Numbers of the nodes or elements whose card names the set.
+    by_instance : mapping of str to SetDefinition
+        Data lines under INSTANCE=, by the instance's key.
+    """
+
+    title: str
+    entries: list[str] = field(default_factory=list)
+    ranges: list[tuple[int, int, int]] = field(default_factory=list)
+    ids: list[np.ndarray] = field(default_factory=list)
+    by_instance: dict[str, SetDefinition] = field(default_factory=dict)
+
+    def merged(self, other: SetDefinition) -> SetDefinition:
+        """Return a definition with the lines of both."""
+        lists = (self.entries + other.entries, self.ranges + other.ranges, self.ids + other.ids)
+        return SetDefinition(self.title, *lists, merged_sets(self.by_instance, other.by_instance))
+
+
+def merged_sets(first: dict[str, SetDefinition], second: dict[str, SetDefinition]) -> dict[str, SetDefinition]:
+    """Merge two tables of definitions by key."""
+    return first | {key: first[key].merged(more) if key in first else more for key, more in second.items()}
+
+
+class MemberBudget:
+    """Limit on the members of all sets together, so that a small file cannot fill the memory."""
+
+    def __init__(self, deck: Deck):
+        self.deck, self.left = deck, _ALWAYS_ALLOWED + _MEMBERS_PER_BYTE * len(deck.data)
+
+    def spend(self, members: int) -> None:
+        """Count members; raise `FileError` above the limit."""
+        self.left -= members
+        if self.left < 0:
+            raise self.deck.error("its sets have far more members than a file of its size can define")
+
+
+class SetLookup:
+    """Members of the sets of one instance, or of the assembly, as positions among all nodes or elements.
+
+    Parameters
+    ----------
+    deck : Deck
+    ids : (n,) int64
+        Numbers of the instance's nodes or elements.
+    sets : mapping of str to SetDefinition
+        By key.
+    first : int
+        Position of the first of `ids`.
+    budget : MemberBudget
+    instances : mapping of str to SetLookup, optional
+        Lookups of the instances that sets of the assembly may name, by key.
+
+    Attributes
+    ----------
+    n_unknown : int
+        Members that do not exist in the file.
+    """
+
+    def __init__(
+        self,
+        deck: Deck,
+        ids: np.ndarray,
+        sets: dict[str, SetDefinition],
+        first: int,
+        budget: MemberBudget,
+        instances: Mapping[str, SetLookup] | None = None,
+    ):
+        self.deck, self.sets, self.budget, self.instances = deck, sets, budget, instances or {}
+        self.order = np.argsort(ids, kind="stable") + first
+        self.ids = np.sort(ids)
+        self.n_unknown = 0
+        self._members: dict[str, np.ndarray] = {}
+
+    def resolve(self, entry: str, parents: tuple[str, ...] = ()) -> np.ndarray:
+        """Positions of an entry, (k,) int64: a number, the name of a set, or either after an instance and a point."""
+        if is_number(entry):
+            return self._positions(np.array([int(entry)]))
+        if name_key(entry) not in self.sets and "." in entry:
+            instance, _, rest = entry.partition(".")
+            if name_key(instance) in self.instances:
+                return self.instances[name_key(instance)].resolve(rest)
+        return self.members(name_key(entry), parents)
+
+    def members(self, key: str, parents: tuple[str, ...] = ()) -> np.ndarray:
+        """Positions of the members of a set, (k,) int64 ascending; `parents` are the sets whose entry it is."""
+        if key not in self._members:
+            if key not in self.sets:
+                raise self.deck.error(f"refers to the set {quoted(key)}, which does not exist")
+            if key in parents or len(parents) > _MAX_DEPTH:
+                raise self.deck.error(f"the set {quoted(key)} is a member of itself")
+            self._members[key] = self._evaluate(self.sets[key], (*parents, key))
+        return self._members[key]
+
+    def _evaluate(self, definition: SetDefinition, parents: tuple[str, ...] = ()) -> np.ndarray:
+        """Positions of the members that a definition lists, ascending."""
+        numbers = np.array([int(entry) for entry in definition.entries if is_number(entry)], np.int64)
+        found = [self._positions(np.concatenate([numbers, *definition.ids]))]
+        for first, last, step in dict.fromkeys(definition.ranges):
+            begin, end = np.searchsorted(self.ids, [first, last + 1])
+            found.append(self.order[begin:end][(self.ids[begin:end] - first) % step == 0])
+            self.budget.spend(len(found[-1]))
+        for entry in dict.fromkeys(definition.entries):
+            if not is_number(entry):
+                found.append(self.resolve(entry, parents))
+                self.budget.spend(len(found[-1]))
+        for instance, lines in definition.by_instance.items():
+            if instance not in self.instances:
+                raise self.deck.error(f"a set refers to the instance {quoted(instance)}, which does not exist")
+            found.append(self.instances[instance]._evaluate(lines))
+        positions = np.unique(np.concatenate(found))
+        self.budget.spend(len(positions))
+        return positions
+
+    def _positions(self, numbers: np.ndarray) -> np.ndarray:
+        """Positions of the numbers that exist; the others are counted."""
+        if not len(self.ids):
+            self.n_unknown += len(numbers)
+            return np.zeros(0, np.int64)
+        at = np.minimum(np.searchsorted(self.ids, numbers), len(self.ids) - 1)
+        exists = self.ids[at] == numbers
+        self.n_unknown += int((~exists).sum())
+        return self.order[at[exists]]
 
 
 @dataclass(eq=False)
@@ -39,6 +199,8 @@ class Part:
     """Model data of a *PART, of an *INSTANCE itself, or of the lines outside of both (the assembly, or a flat file)."""
 
     name: str
+    #: *NODE cards that were not parsed, see `reader.read_node_cards`.
+    node_cards: list[Card] = field(default_factory=list)
     node_ids: list[np.ndarray] = field(default_factory=list)
     points: list[np.ndarray] = field(default_factory=list)
     element_cards: list[ElementCard] = field(default_factory=list)
@@ -51,6 +213,7 @@ class Part:
         """Return a part with the data of both."""
         return Part(
             self.name,
+            self.node_cards + other.node_cards,
             self.node_ids + other.node_ids,
             self.points + other.points,
             self.element_cards + other.element_cards,

@@ -6,19 +6,26 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
-from hexmend.io.base.remedies import check_suffix
-from hexmend.io.coordinates.unread import some_names, unread_note
+from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
 from hexmend.io.formats.abaqus.includes import read_deck
-from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, element_card, placement
-from hexmend.io.formats.abaqus.sets import SetDefinition, is_number, name_key, unquoted
+from hexmend.io.formats.abaqus.model import (
+    ElementCard,
+    Instance,
+    Part,
+    SetDefinition,
+    element_card,
+    is_number,
+    name_key,
+    placement,
+    unquoted,
+)
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
@@ -29,6 +36,8 @@ _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE do
 _CONDITIONS = ("BOUNDARY", "CLOAD", "EQUATION", "MPC")
 #: Cards without data of the mesh, which no note mentions.
 _IGNORED = ("HEADING", "INCLUDE", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
+#: Cards that say to what the next ones belong.
+_STRUCTURE = ("PART", "END PART", "INSTANCE", "END INSTANCE")
 #: Cards by which bodies touch.
 _CONTACT = {"CONTACT", "CONTACT INCLUSIONS", "CONTACT PAIR", "TIE"}
 #: Nodes of all instances that are never too many; more need a file of as many bytes.
@@ -57,6 +66,20 @@ def read(path: Path) -> Mesh:
     return to_mesh(deck, *_Reader(deck).model())
 
 
+def read_node_cards(deck: Deck) -> list[Instance]:
+    """Read the placements of all instances, and last the assembly: an instance without a name.
+
+    Of their parts, only `node_cards` are known.
+    """
+    reader = _Reader(deck)
+    for card in deck.cards():
+        if card.name == "NODE":
+            reader.part.node_cards.append(card)
+        elif card.name in _STRUCTURE:
+            _CARDS[card.name](reader, card)
+    return [*(replace(one, part=one.part.merged(one.own)) for one in reader.placed), Instance("", reader.assembly)]
+
+
 class _Reader:
     """Model data of the cards read so far; the current card adds to `part`."""
 
@@ -75,8 +98,9 @@ class _Reader:
             count += 1
             reader = _CARDS.get(card.name)
             if card.name in _GENERATING:
-                self._refuse(card)
-            elif reader is not None:
+                problem = f"*{card.name} in {self.deck.place(card)} generates nodes or elements from others"
+                raise self.deck.error(problem, _EXPAND)
+            if reader is not None:
                 reader(self, card)
             elif card.name not in _IGNORED:
                 self.other_cards[card.name] += 1
@@ -89,18 +113,17 @@ class _Reader:
         conditions = [f"*{name}" for name in _CONDITIONS if name in self.other_cards]
         if conditions:
             notes.append(f"Nodes named in {', '.join(conditions)} move with the mesh: these keywords fix no node.")
-        instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
+        instances = self.placed
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:
             notes.append(unread_note(count_phrase(unused, "part without an instance", "parts without an instance")))
         instances = [replace(one, part=one.part.merged(one.own)) for one in instances]
         return instances, self.assembly, notes, sorted(self.other_cards.keys() & _CONTACT)
 
-    def _refuse(self, card: Card) -> NoReturn:
-        """Raise the error for a card whose data have to be generated."""
-        raise self.deck.error(
-            f"*{card.name} in {self.deck.place(card)} generates nodes or elements from others", _EXPAND
-        )
+    @property
+    def placed(self) -> list[Instance]:
+        """The instances; where there are none, all parts as they are."""
+        return self.instances or [Instance(part.name, part) for part in self.parts.values()]
 
     def read_node(self, card: Card) -> None:
         """*NODE, NSET=..."""

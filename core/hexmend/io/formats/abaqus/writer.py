@@ -11,9 +11,8 @@ from typing import TextIO
 import numpy as np
 
 from hexmend.io.base import numbering
-from hexmend.io.base.cell_kinds import from_vtk_order
-from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
-from hexmend.io.base.unique_names import altered_names, make_unique
+from hexmend.io.base.capabilities import altered_names, make_unique
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_sets, from_mesh, from_vtk_order
 from hexmend.io.formats.abaqus.content import TYPE, TYPES
 from hexmend.io.formats.abaqus.elements import DEFAULT_TYPES, ORDER, SIDE_OF_FACE, kind_of
 from hexmend.mesh.mesh import Mesh
@@ -54,16 +53,13 @@ def _write_elements(file: TextIO, content: Content, node_ids: np.ndarray, elemen
 
 
 def _write_sets(file: TextIO, content: Content, node_ids: np.ndarray, element_ids: list[np.ndarray]) -> None:
-    element_sets: dict[str, list[np.ndarray]] = {}
-    for block, ids in zip(content.blocks, element_ids, strict=True):
-        for name, members in block.sets.items():
-            element_sets.setdefault(name, []).append(ids[members])
+    element_sets = concatenate_sets([block.sets for block in content.blocks], [len(block) for block in content.blocks])
     for name, title in _titles(content.node_sets).items():
         file.write(f"*NSET, NSET={title}\n")
         file.write(_set_lines(node_ids[np.asarray(content.node_sets[name], np.int64)]))
     for name, title in _titles(element_sets).items():
         file.write(f"*ELSET, ELSET={title}\n")
-        file.write(_set_lines(np.concatenate(element_sets[name])))
+        file.write(_set_lines(np.concatenate(element_ids)[element_sets[name]]))
 
 
 def _write_surfaces(file: TextIO, content: Content, element_ids: list[np.ndarray]) -> None:

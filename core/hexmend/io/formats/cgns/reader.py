@@ -10,9 +10,8 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
 from hexmend.io.formats.cgns.structured import read_structured
-from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import read_unstructured
-from hexmend.io.formats.cgns.zone import Zone
+from hexmend.io.formats.cgns.zone import CGNSNode, Zone
 from hexmend.mesh.materials import STRUCTURED_BLOCKS
 from hexmend.mesh.topology.components import components
 from hexmend.terminal_text import count_phrase
@@ -113,6 +112,4 @@ def _merge_nodes(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tu
     label = components(len(points), pairs)
     kept = np.unique(label, return_index=True)[1]
     order = np.argsort(kept)  # the order of the file
-    number = np.empty(len(kept), np.int64)
-    number[order] = np.arange(len(kept))
-    return number[label], kept[order], len(pairs)
+    return np.argsort(order)[label], kept[order], len(pairs)

@@ -7,8 +7,16 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.formats.cgns.tree import CGNSNode, boundary_conditions
-from hexmend.io.formats.cgns.zone import Interface, Zone, add_members, new_zone, solution_arrays, zone_size
+from hexmend.io.formats.cgns.zone import (
+    CGNSNode,
+    Interface,
+    Zone,
+    add_members,
+    boundary_conditions,
+    new_zone,
+    solution_arrays,
+    zone_size,
+)
 from hexmend.mesh.orientation import MIRRORED_CORNERS, MIRRORED_FACES
 from hexmend.quality import corner_determinants
 

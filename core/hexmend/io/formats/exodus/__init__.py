@@ -12,8 +12,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
 from hexmend.io.base.format import Capability, deferred, register
 from hexmend.io.formats.exodus import netcdf3
-from hexmend.io.formats.exodus.ids import IDS
-from hexmend.io.formats.exodus.records import INFORMATION, QA
+from hexmend.io.formats.exodus.records import IDS, INFORMATION, QA
 from hexmend.mesh.mesh import Mesh
 
 
@@ -43,5 +42,5 @@ register(
     stored_names=frozenset({IDS, QA, INFORMATION}),
     limitations=deferred("hexmend.io.formats.exodus.writer:limitations"),
     matches=matches,
-    locate=deferred("hexmend.io.formats.exodus.coordinates:locate"),
+    locate=deferred("hexmend.io.formats.exodus.reader:locate"),
 )

@@ -8,9 +8,9 @@ from itertools import chain, count
 
 import numpy as np
 
+from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.content import ID
 from hexmend.io.base.numbering import fit_64_bits
-from hexmend.io.base.unique_names import make_unique
 
 _FIRST_COLUMN = re.compile(r"(.+)_(x|1)$", re.IGNORECASE)
 

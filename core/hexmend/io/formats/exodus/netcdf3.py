@@ -16,8 +16,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.storage.binary_rows import native, read_rows
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes, native, read_rows
 
 #: Types of values (nc_type); 2 is text.
 TYPES = {

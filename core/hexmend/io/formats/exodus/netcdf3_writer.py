@@ -59,11 +59,9 @@ class ClassicWriter:
 
     def add_strings(self, name: str, dimension: str, words: list[str]) -> None:
         """Add a variable of strings along a dimension, of 32 bytes each, or more where one is longer."""
-        rows = [word.encode() for word in words]
-        width = max(_STRING, *(len(row) + 1 for row in rows))
-        characters = np.frombuffer(b"".join(row.ljust(width, b"\0") for row in rows), "S1").reshape(-1, width)
+        width = max(_STRING, *(len(word.encode()) + 1 for word in words))
         length = "len_name" if width == _STRING else f"len_{name}"
-        self.add_variable(name, {dimension: len(rows), length: width}, characters)
+        self.add_variable(name, {dimension: len(words), length: width}, characters(words, width))
 
     def write(self, path: Path) -> None:
         """Write the file, as CDF-2, or as CDF-5 where a number needs 64 bits or an array 2 GB."""
@@ -126,3 +124,9 @@ class ClassicWriter:
             parts += [text(name), count(len(shape)), *(count(names.index(one)) for one in shape), attributes(table)]
             parts += [struct.pack(">i", nc_type), count(size), struct.pack(">q", begin)]
         return b"".join(parts)
+
+
+def characters(words: list[str], width: int) -> np.ndarray:
+    """Strings as rows of bytes, (k, width); longer ones are cut."""
+    rows = [word.encode()[: width - 1].decode(errors="ignore").encode().ljust(width, b"\0") for word in words]
+    return np.frombuffer(b"".join(rows), "S1").reshape(-1, width)

@@ -1,4 +1,7 @@
-"""Content of an ExodusII file: element blocks, sets, maps of ids, and results of the last time step."""
+"""Content of an ExodusII file: element blocks, sets, maps of ids, and results of the last time step.
+
+Coordinates of an ExodusII file: its variables coordx, coordy and coordz, or coord.
+"""
 
 from __future__ import annotations
 
@@ -7,19 +10,19 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cell_kinds import node_count, to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_blocks
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_blocks, node_count, to_vtk_order
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.base.numbering import check_numbers
-from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import DAMAGED, unread_note
+from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryPiece, locate_datasets
+from hexmend.io.coordinates.located import LocatedCoordinates
 from hexmend.io.formats.exodus.columns import join_columns
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
-from hexmend.io.formats.exodus.ids import id_lines
-from hexmend.io.formats.exodus.records import read_records, unread_notes
-from hexmend.io.formats.exodus.store import ExodusStore, open_store
-from hexmend.io.formats.exodus.values import CheckedVariables
+from hexmend.io.formats.exodus.netcdf3 import is_classic
+from hexmend.io.formats.exodus.records import id_lines, read_records, unread_notes
+from hexmend.io.formats.exodus.store import CheckedVariables, ExodusStore, HDF5Store, open_store
+from hexmend.io.storage import subprocess_reader
 
 
 def content(path: Path) -> Content:
@@ -32,11 +35,6 @@ def content(path: Path) -> Content:
     """
     with open_store(path) as store:
         return _Reader(path, store).content()
-
-
-def points(path: Path, store: ExodusStore) -> np.ndarray:
-    """Read the coordinates of the nodes alone, (n, 3) float64."""
-    return _Reader(path, store).points()
 
 
 class _Reader:
@@ -228,3 +226,22 @@ def _merge_other_kinds(blocks: list[Block]) -> list[Block]:
     for kind in dict.fromkeys(block.kind for block in blocks if block.kind not in HEX_KINDS):
         merged.append(merge_blocks([block for block in blocks if block.kind == kind]))
     return merged
+
+
+def locate(path: Path) -> LocatedCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    return coordinates(path) if is_classic(path) else subprocess_reader.run_reader(f"{__name__}:coordinates", path)
+
+
+def coordinates(path: Path) -> LocatedCoordinates:
+    """Find the coordinates of a file; run in a subprocess for one on HDF5."""
+    with open_store(path) as store:
+        width, found, pieces = store.dimensions.get("num_dim", 3), _Reader(path, store).points(), []
+        single = {f"coord{'xyz'[k]}": slice(k, k + 1) for k in range(width)}
+        columns = {"coord": slice(0, width)} if "coord" in store else single
+        if isinstance(store, HDF5Store):
+            return locate_datasets(path, found, [(store.dataset(name), part) for name, part in columns.items()])
+        for name, part in columns.items():
+            variable = store.variable(name)
+            pieces.append(BinaryPiece.of_columns(variable.begin, variable.dtype, len(found), part))
+        return BinaryCoordinates(path, found, tuple(pieces))

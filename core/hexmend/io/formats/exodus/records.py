@@ -1,14 +1,67 @@
-"""QA and information records of an ExodusII file, and a note on data that Hexmend does not keep."""
+"""QA and information records of an ExodusII file, and a note on data that Hexmend does not keep.
+
+Ids of element blocks and sets, which solvers refer to: kept as field data with lines such as "ns 100 inlet".
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import count
 
 import numpy as np
 
-from hexmend.io.coordinates.unread import unread_note
-from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
+from hexmend.io.base.remedies import unread_note
+from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter, characters
 from hexmend.io.formats.exodus.store import ExodusStore
+
+#: Name of the field data with the lines: entity ("eb", "ns", "els" or "ss"), id, and name in Hexmend.
+IDS = "exodus:ids"
+
+
+def id_lines(found: Sequence[tuple[str, int, str]]) -> dict[str, list[str]]:
+    """Field data of (entity, id, name); none where the ids of every entity are 1, 2, ..."""
+    ids: dict[str, list[int]] = {}
+    for entity, number, _ in found:
+        ids.setdefault(entity, []).append(number)
+    if all(numbers == list(range(1, len(numbers) + 1)) for numbers in ids.values()):
+        return {}
+    return {IDS: [f"{entity} {number} {name}" for entity, number, name in found]}
+
+
+def assigned_ids(lines: object, entity: str, names: Sequence[str]) -> list[int]:
+    """Ids of the blocks or sets of an entity for a file: as the lines give them, unused ids for other names.
+
+    Parameters
+    ----------
+    lines : list of str
+        Field data of the name `IDS`; anything else holds no ids.
+    entity : str
+        "eb", "ns", "els" or "ss".
+    names : sequence of str
+
+    Examples
+    --------
+    >>> assigned_ids(["ns 100 inlet", "ss 7 wall"], "ns", ["new", "inlet"])
+    [101, 100]
+    >>> assigned_ids(None, "ns", ["a", "b"])
+    [1, 2]
+    """
+    words = [line.split(" ", 2) for line in lines if isinstance(line, str)] if isinstance(lines, list | tuple) else []
+    known: dict[str, list[int]] = {}
+    for parts in words:
+        if len(parts) == 3 and parts[0] == entity and parts[1].isdecimal() and 0 < int(parts[1]) < 2**31:
+            known.setdefault(parts[2], []).append(int(parts[1]))
+    ids: list[int | None] = []
+    used: set[int] = set()
+    for name in names:
+        number = known[name].pop(0) if known.get(name) else None
+        ids.append(None if number in used else number)
+        used.update([number] if number else [])
+    following = max(used, default=0) + 1
+    first = following if following + ids.count(None) <= 2**31 else 1
+    unused = (number for number in count(first) if number not in used)
+    return [next(unused) if number is None else number for number in ids]
+
 
 #: Names of field data: QA records, four strings each (program, version, date, time), and information records.
 QA, INFORMATION = "exodus:qa", "exodus:information"
@@ -40,10 +93,10 @@ def add_records(file: ClassicWriter, field_data: Mapping[str, object]) -> None:
     """Add the records that `read_records` found; field data of other types are passed over."""
     qa, lines = _strings(field_data.get(QA)), _strings(field_data.get(INFORMATION))
     if qa and len(qa) % 4 == 0:
-        characters = _characters(qa, _STRING).reshape(-1, 4, _STRING)
-        file.add_variable("qa_records", {"num_qa_rec": len(characters), "four": 4, "len_string": _STRING}, characters)
+        records = characters(qa, _STRING).reshape(-1, 4, _STRING)
+        file.add_variable("qa_records", {"num_qa_rec": len(records), "four": 4, "len_string": _STRING}, records)
     if lines:
-        file.add_variable("info_records", {"num_info": len(lines), "len_line": _LINE}, _characters(lines, _LINE))
+        file.add_variable("info_records", {"num_info": len(lines), "len_line": _LINE}, characters(lines, _LINE))
 
 
 def unread_notes(store: ExodusStore) -> list[str]:
@@ -66,9 +119,3 @@ def _has_factors(store: ExodusStore, set_name: str) -> bool:
 def _strings(value: object) -> list[str]:
     valid = isinstance(value, list | tuple) and all(isinstance(text, str) for text in value)
     return list(value) if valid else []
-
-
-def _characters(words: list[str], width: int) -> np.ndarray:
-    """Strings as rows of bytes, (k, width); longer ones are cut."""
-    rows = [word.encode()[: width - 1].decode(errors="ignore").encode().ljust(width, b"\0") for word in words]
-    return np.frombuffer(b"".join(rows), "S1").reshape(-1, width)

@@ -9,17 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.capabilities import non_numeric_data, rounded_integers
-from hexmend.io.base.cell_kinds import from_vtk_order
-from hexmend.io.base.content import ID, Block, hex_blocks, unused_name
+from hexmend.io.base.capabilities import altered_names, make_unique, non_numeric_data, rounded_integers
+from hexmend.io.base.content import ID, Block, concatenate_sets, from_vtk_order, hex_blocks, unused_name
 from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
 from hexmend.io.base.numbering import fit_64_bits
-from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.exodus.columns import are_ids, clean_name, column_titles, columns
 from hexmend.io.formats.exodus.elements import ORDER, PINS_PROPERTY, SIDE_OF_FACE, TYPE_OF_KIND
-from hexmend.io.formats.exodus.ids import IDS, assigned_ids
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
-from hexmend.io.formats.exodus.records import add_records
+from hexmend.io.formats.exodus.records import IDS, add_records, assigned_ids
 from hexmend.mesh.mesh import Mesh
 
 #: Value of `int64_status` if the maps store ids of 64 bits: EX_MAPS_INT64_DB of exodusII.h.
@@ -152,16 +149,11 @@ def _add_node_sets(file: ClassicWriter, mesh: Mesh) -> None:
 
 
 def _add_element_sets(file: ClassicWriter, mesh: Mesh, parts: list[Block], blocks: list[_ElementBlock]) -> None:
-    sets: dict[str, list[np.ndarray]] = {}
-    named, first = {block.name for block in blocks if block.name}, 0
-    for part in parts:
-        for name, members in part.sets.items():
-            if name not in named and len(members):
-                sets.setdefault(name, []).append(np.asarray(members) + first)
-        first += len(part)
+    named = {block.name for block in blocks if block.name}
+    found = concatenate_sets([part.sets for part in parts], [len(part) for part in parts])
+    sets = {name: members for name, members in found.items() if name not in named and len(members)}
     _add_entities(file, mesh, "els", "num_elem_sets", list(sets))
     for k, members in enumerate(sets.values(), 1):
-        members = np.concatenate(members)
         file.add_variable(f"elem_els{k}", {f"num_ele_els{k}": len(members)}, members + 1)
 
 

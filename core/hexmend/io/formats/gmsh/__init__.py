@@ -10,11 +10,6 @@ from hexmend.io.base.format import Capability, deferred, register
 _LOST = {Capability.NODE_SETS, Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.FIELD_DATA}
 
 
-def _matches(head: bytes) -> bool:
-    """Return True if a file begins with $MeshFormat, or with $NOD as version 1 does."""
-    return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
-
-
 register(
     name="gmsh",
     title="Gmsh",
@@ -25,6 +20,6 @@ register(
     capabilities=frozenset(Capability) - _LOST,
     stored_names=frozenset({"gmsh:physical"}),
     limitations=deferred("hexmend.io.formats.gmsh.writer:limitations"),
-    matches=_matches,
+    matches=lambda head: b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD"),
     locate=deferred("hexmend.io.formats.gmsh.coordinates:locate"),
 )

@@ -9,16 +9,23 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cell_kinds import dimension, to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, unused_name
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, dimension, to_vtk_order, unused_name
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.coordinates.unread import unread_note
-from hexmend.io.formats.gmsh.element_types import KIND_OF_TYPE, ORDER
-from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group
-from hexmend.io.formats.gmsh.sections import DataSection, ElementBlock, Sections, joined
+from hexmend.io.base.remedies import unread_note
+from hexmend.io.formats.gmsh.sections import (
+    KIND_OF_TYPE,
+    ORDER,
+    PHYSICAL_NAMES,
+    DataSection,
+    ElementBlock,
+    Sections,
+    group_numbers,
+    joined,
+    unnamed_group,
+)
 from hexmend.mesh.mesh import Mesh
 
 #: Name of the cell data that hold partitions, unless the file has data of that name.
@@ -144,6 +151,22 @@ def _unique_rows(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return np.arange(len(nodes)), np.arange(len(nodes))
     _, first, row = np.unique(nodes, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
-    rank = np.empty(len(first), np.int64)
-    rank[order] = np.arange(len(first))
-    return first[order], rank[row.ravel()]
+    return first[order], np.argsort(order)[row.ravel()]
+
+
+def with_periodic_surfaces(path: Path, mesh: Mesh, sections: Sections) -> Mesh:
+    """Add the nodes of periodic surfaces as node sets such as "surface 3", and their names as periodic pairs.
+
+    Links of points and curves, and surfaces whose nodes no hex uses, are left out: those of surfaces have them all.
+    """
+    sets, pairs = dict(mesh.node_sets), []
+    for link in sections.periodic:
+        nodes = find_ids(path, sections.tags, link.nodes, "node") if link.dimension == 2 else np.empty((0, 2), int)
+        nodes = nodes[mesh.topology.boundary[nodes].all(axis=1)]
+        if not len(nodes):
+            continue
+        pair = tuple(f"surface {tag}" for tag in (link.master, link.entity))
+        for name, members in zip(pair, nodes.T[::-1], strict=True):
+            sets[name] = np.union1d(sets.get(name, []), members).astype(np.int64)
+        pairs.append(pair)
+    return mesh.replace(node_sets=sets, periodic_pairs=(*mesh.periodic_pairs, *pairs)) if pairs else mesh

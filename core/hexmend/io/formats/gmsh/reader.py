@@ -8,21 +8,20 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.base.remedies import check_suffix
-from hexmend.io.coordinates.unread import some_names, unread_note
-from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
-from hexmend.io.formats.gmsh.content import to_mesh
+from hexmend.io.base.remedies import check_suffix, some_names, unread_note
+from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.formats.gmsh.content import to_mesh, with_periodic_surfaces
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Readers of sections by version and keyword.
 _READERS = {
     1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
-    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": periodic.read_version_2},
+    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
-    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": periodic.read_version_4},
+    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": version_4.read_periodic},
 }
 
 
@@ -71,7 +70,7 @@ def read(path: Path) -> Mesh:
         raise source.error("has no section $MeshFormat")
     if skipped:
         sections.notes.append(unread_note(f"sections ({some_names(skipped)})"))
-    return periodic.with_periodic_surfaces(path, to_mesh(path, sections), sections)
+    return with_periodic_surfaces(path, to_mesh(path, sections), sections)
 
 
 def read_format(source: ByteCursor) -> tuple[int, str]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.formats.gmsh.element_types import nodes_per_element
-from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
+from hexmend.io.formats.gmsh.sections import ElementBlock, Sections, nodes_per_element
 from hexmend.io.formats.gmsh.version_2 import read_text_nodes
 
 

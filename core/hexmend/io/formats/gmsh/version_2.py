@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.formats.gmsh.element_types import nodes_per_element
-from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
+from hexmend.io.formats.gmsh.sections import ElementBlock, PeriodicLink, Sections, nodes_per_element
 from hexmend.io.storage.binary_rows import native
 
 
@@ -104,3 +103,27 @@ def _expect(source: ByteCursor, end: str) -> None:
     """Raise unless the next line is the keyword `end`."""
     if source.next_line() != end:
         raise source.error(f"a section ends without {end} before {source.location}")
+
+
+def read_periodic(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $Periodic of version 2, which is text in binary files too; see version 4."""
+    for _ in range(source.parse_count(source.next_line(), "the number of periodic entities")):
+        entity = _integers(source, source.next_line(), 3)
+        line = source.next_line()
+        if line.startswith("Affine"):
+            line = source.next_line()
+        count = source.parse_count(line, "the number of periodic nodes")
+        if count > len(source.data):
+            raise source.error(f"$Periodic declares {count} nodes before {source.location}")
+        rows = [_integers(source, source.next_line(), 2) for _ in range(count)]
+        sections.periodic.append(PeriodicLink(*entity, np.array(rows, np.int64).reshape(-1, 2)))
+    if source.next_line() != "$EndPeriodic":
+        raise source.error(f"$Periodic ends without $EndPeriodic before {source.location}")
+
+
+def _integers(source: ByteCursor, line: str, count: int) -> list[int]:
+    """Parse a line of `count` whole numbers."""
+    words = line.split()
+    if len(words) != count or not all(word.lstrip("-").isdigit() and len(word) < 19 for word in words):
+        raise source.error(f"$Periodic has the line {line[:40]!r} before {source.location}: expected {count} numbers")
+    return [int(word) for word in words]

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.formats.gmsh.element_types import nodes_per_element
-from hexmend.io.formats.gmsh.sections import ElementBlock, Sections, joined, split_tags
+from hexmend.io.formats.gmsh.sections import ElementBlock, PeriodicLink, Sections, joined, nodes_per_element, split_tags
 from hexmend.io.formats.gmsh.version_2 import node_tags
 from hexmend.io.storage.binary_rows import native
 
@@ -136,3 +135,14 @@ def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     numbers.close()
     if seen != count:
         raise source.error(f"$Elements holds {seen} elements: expected {count}")
+
+
+def read_periodic(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $Periodic of version 4.1: entities with their masters, transformations, and pairs of node tags."""
+    numbers = SectionNumbers(source, order, "Periodic", np.float64)
+    for _ in range(numbers.integers(1)[0]):
+        entity = numbers.integers(3, "i4")
+        numbers.take(numbers.integers(1)[0], "f8")  # the transformation, which the nodes tell too
+        rows = numbers.take(2 * numbers.integers(1)[0], "u8").reshape(-1, 2)
+        sections.periodic.append(PeriodicLink(*entity, rows.astype(np.int64)))
+    numbers.close()

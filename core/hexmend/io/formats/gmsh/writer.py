@@ -9,15 +9,12 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.base.capabilities import rounded_integers
-from hexmend.io.base.cell_kinds import dimension, from_vtk_order
-from hexmend.io.base.content import ID, Block, from_mesh, unused_name
+from hexmend.io.base.capabilities import altered_names, make_unique, rounded_integers
+from hexmend.io.base.content import ID, Block, dimension, from_mesh, from_vtk_order, unused_name
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.numbering import element_ids, node_ids, runs, set_combinations, unsupported_ids
-from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.gmsh.data import SectionWriter, data_title, width_of_row, write_data, written_width
-from hexmend.io.formats.gmsh.element_types import ORDER, TYPE_OF_KIND
-from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group_number
+from hexmend.io.formats.gmsh.sections import ORDER, PHYSICAL_NAMES, TYPE_OF_KIND, group_numbers, unnamed_group_number
 from hexmend.mesh.mesh import Mesh
 
 #: Tags of the elements of each block, or of their entities, (k,) int64 each.

@@ -18,11 +18,6 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, hdf5.read_content("hexmend.io.formats.med.reader:content", path))
 
 
-def _matches(head: bytes) -> bool:
-    """Return True if a file begins like HDF5, with the group of MED's meshes or of its general information."""
-    return head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
-
-
 register(
     name="med",
     title="MED",
@@ -32,6 +27,6 @@ register(
     write=deferred("hexmend.io.formats.med.writer:write"),
     capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.FIELD_DATA},
     limitations=deferred("hexmend.io.formats.med.writer:limitations"),
-    matches=_matches,
-    locate=deferred("hexmend.io.formats.med.coordinates:locate"),
+    matches=lambda head: head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head),
+    locate=deferred("hexmend.io.formats.med.reader:locate"),
 )

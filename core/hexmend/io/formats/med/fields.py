@@ -13,13 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.hdf5 import text_of
 from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.base.unique_names import make_unique
-from hexmend.io.coordinates.unread import some_names, unread_note
-from hexmend.io.formats.med.arrays import read_array
-from hexmend.io.formats.med.elements import GEOMETRY_BITS
+from hexmend.io.base.remedies import DAMAGED, some_names, unread_note
+from hexmend.io.formats.med.arrays import GEOMETRY_BITS, read_array
 
 #: Profile of values for all nodes or cells.
 NO_PROFILE = "MED_NO_PROFILE_INTERNAL"

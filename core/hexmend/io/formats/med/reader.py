@@ -1,9 +1,11 @@
-"""Content of a MED file: its first mesh, with groups as sets and fields as data."""
+"""Content of a MED file: its first mesh, with groups as sets and fields as data.
+
+Coordinates of a MED file: the dataset COO of its first mesh.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,14 +13,21 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
-from hexmend.io.base.cell_kinds import node_count, to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
-from hexmend.io.base.remedies import DAMAGED, check_suffix
-from hexmend.io.coordinates.unread import unread_note
-from hexmend.io.formats.med.arrays import max_bytes, read_array, read_integers
-from hexmend.io.formats.med.elements import KIND_OF_TYPE, ORDER, TYPE_OF_KIND
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, node_count, to_vtk_order
+from hexmend.io.base.remedies import DAMAGED, check_suffix, unread_note
+from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, locate_datasets
+from hexmend.io.coordinates.located import LocatedCoordinates
+from hexmend.io.formats.med.arrays import (
+    KIND_OF_TYPE,
+    ORDER,
+    TYPE_OF_KIND,
+    decode_names,
+    max_bytes,
+    read_array,
+    read_integers,
+)
 from hexmend.io.formats.med.fields import read_fields
-from hexmend.io.formats.med.groups import decode_names
+from hexmend.io.storage import subprocess_reader
 
 
 def content(path: Path) -> Content:
@@ -29,21 +38,8 @@ def content(path: Path) -> Content:
     FileError
         For a file that is damaged, or whose first mesh is structured or not in space.
     """
-    with open_med(path) as file:
+    with hdf5.open_file(path) as file:
         return _content(path, file)
-
-
-@contextmanager
-def open_med(path: Path) -> Iterator[Mapping]:
-    """Open a file for reading; errors of h5py inside become `FileError`."""
-    try:
-        with hdf5.open_file(path) as file:
-            yield file
-    except (OSError, RuntimeError, LookupError, ValueError) as error:
-        words = " ".join(str(error).strip("'\"").split())[:120]
-        raise FileError(path, f"cannot be read as HDF5 ({words})", DAMAGED) from None
-    except (TypeError, AttributeError, OverflowError):  # a link to nothing, an attribute of another type
-        raise FileError(path, "holds groups or attributes that MED does not have", DAMAGED) from None
 
 
 def _content(path: Path, file: Mapping) -> Content:
@@ -135,3 +131,17 @@ def _sets(path: Path, group: Mapping, count: int, families: Mapping) -> dict[str
         for name in names:
             found.setdefault(name, []).append(order[begin:end])
     return {name: np.sort(np.concatenate(members)) for name, members in found.items()}
+
+
+def locate(path: Path) -> LocatedCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    return subprocess_reader.run_reader(f"{__name__}:coordinates", path)
+
+
+def coordinates(path: Path) -> LocatedCoordinates:
+    """Find the coordinates of the first step of the first mesh; run in a subprocess."""
+    with hdf5.open_file(path) as file:
+        notes, name = [], next(iter(file["ENS_MAA"]))
+        mesh = first_step(path, name, file["ENS_MAA"][name], notes)
+        only_first = ("Only the first step of the mesh gets new coordinates.",) if notes else ()
+        return locate_datasets(path, read_points(path, mesh), [(mesh["NOE"]["COO"], ALL_COLUMNS)], only_first)

@@ -8,15 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import from_vtk_order
-from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_blocks
+from hexmend.io.base.capabilities import altered_names
+from hexmend.io.base.content import ID, Block, Content, from_mesh, from_vtk_order, merge_blocks
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.hdf5_output import writable_file
+from hexmend.io.base.hdf5 import writable_file
 from hexmend.io.base.numbering import fit_64_bits, set_combinations
-from hexmend.io.base.unique_names import altered_names
-from hexmend.io.formats.med.elements import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND
+from hexmend.io.formats.med.arrays import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND, encode_names, group_titles
 from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, field_titles, type_code, write_fields
-from hexmend.io.formats.med.groups import encode_names, group_titles
 from hexmend.mesh.mesh import Mesh
 
 

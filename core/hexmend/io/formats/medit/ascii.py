@@ -13,7 +13,7 @@ from hexmend.io.base.remedies import check_suffix
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.io.storage.file_progress import advance
 from hexmend.mesh.mesh import Mesh
 

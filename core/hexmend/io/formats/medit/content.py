@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, Content, hex_blocks
 from hexmend.io.base.content import from_mesh as content_of
@@ -16,7 +17,7 @@ from hexmend.io.base.fixed_marks import needs_marks
 from hexmend.io.base.format import Capability
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
-from hexmend.io.coordinates.unread import some_names, unread_note
+from hexmend.io.base.remedies import some_names, unread_note
 from hexmend.io.storage.binary_rows import gather_integers, row_blocks
 from hexmend.mesh.mesh import Mesh
 
@@ -98,7 +99,7 @@ def to_mesh(
             data = {REF: rows[:, -1].copy()}
             for (flagged, flag), members in flags.items():
                 if flagged == kind:
-                    data[flag] = _mask(path, flag, members, len(rows))
+                    data[flag] = _mask(path, flag, members, len(rows)).view(np.uint8)
             blocks.append(Block(kind, _from_zero(rows[:, :-1]), data))
     node_sets = {}
     for name, title in _NODE_SETS.items():
@@ -108,7 +109,7 @@ def to_mesh(
             node_sets[title] = members
     pinned = None
     if "required" in node_sets:
-        pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points)).astype(bool)
+        pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points))
     hexes = sections.get("Hexahedra", np.empty((0, 9), np.int64))
     blocks.append(Block("hex", _from_zero(hexes[:, :8]), {REF: hexes[:, 8].copy()}))
     notes = (unread_note(f"sections ({some_names(dict.fromkeys(skipped))})"),) if skipped else ()
@@ -171,12 +172,10 @@ def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:
 
 
 def _mask(path: Path, name: str, members: np.ndarray, length: int) -> np.ndarray:
-    """Mark members by 1 in (length,) uint8; `name` is their section, for errors."""
+    """Mark members in (length,) bool; `name` is their section, for errors."""
     outside = first_out_of_range(members, length)
     if outside is not None:
         raise FileError(
             path, f"{name} refer to {outside + 1}: expected numbers from 1 to {length}", "Correct the file."
         )
-    mask = np.zeros(length, np.uint8)
-    mask[members] = 1
-    return mask
+    return mask(members, length)

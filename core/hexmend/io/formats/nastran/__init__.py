@@ -27,11 +27,6 @@ _FIRST = re.compile(
 )
 
 
-def _matches(head: bytes) -> bool:
-    """Return True if a file begins with a statement of Nastran's executive control or bulk data."""
-    return _FIRST.match(head) is not None
-
-
 register(
     name="nastran",
     title="Nastran",
@@ -43,6 +38,6 @@ register(
     stored_names=_Properties(),
     limitations=deferred("hexmend.io.formats.nastran.writer:limitations"),
     exact=False,  # a column has room for 12 to 14 digits
-    matches=_matches,
+    matches=lambda head: _FIRST.match(head) is not None,
     locate=deferred("hexmend.io.formats.nastran.coordinates:locate"),
 )

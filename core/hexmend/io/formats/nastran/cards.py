@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from hexmend.io.base.cell_kinds import node_count
+from hexmend.io.base.content import node_count
 
 #: Card by which the elements of each kind are written.
 CARD_OF_KIND = {

@@ -7,15 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cell_kinds import to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.remedies import DAMAGED, check_suffix
-from hexmend.io.coordinates.unread import some_names, unread_note
-from hexmend.io.formats.nastran.bulk import BulkData
-from hexmend.io.formats.nastran.card_blocks import CardBlock, natural_numbers
+from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
+from hexmend.io.formats.nastran.bulk import BulkData, CardBlock, natural_numbers
 from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, ORDER, element_layout
 from hexmend.mesh.mesh import Mesh
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base import numbering
-from hexmend.io.base.cell_kinds import from_vtk_order
-from hexmend.io.base.content import Block, from_mesh
+from hexmend.io.base.content import Block, from_mesh, from_vtk_order
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.formats.nastran.cards import CARD_OF_KIND, ORDER, PROPERTY_SET, is_exact, real_field
 from hexmend.mesh.mesh import Mesh

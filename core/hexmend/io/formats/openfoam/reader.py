@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.arrays import index_of, mask
 from hexmend.errors import FileError
 from hexmend.io.base.content import ID, Block, Content, to_mesh
 from hexmend.io.base.numbering import first_out_of_range
@@ -15,7 +16,7 @@ from hexmend.io.formats.openfoam.boundary import DEFAULT_PATCH, Patch, read_patc
 from hexmend.io.formats.openfoam.case import SUFFIXES, CaseFiles, find_case
 from hexmend.io.formats.openfoam.foam_file import FoamFile
 from hexmend.io.formats.openfoam.lists import read_faces, read_labels, read_vectors
-from hexmend.io.formats.openfoam.standard_order import standard_order
+from hexmend.io.formats.openfoam.topology import standard_order
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.two_dimensional import with_two_dimensional_motion
@@ -84,7 +85,8 @@ def read(path: Path) -> Mesh:
     hex_of = np.full(poly.n_cells, -1)
     numbers, hexes = cells.get("hex", (np.zeros(0, np.int64), np.zeros((0, 8), np.int64)))
     hex_of[numbers] = np.arange(len(numbers))
-    zones = {name: read_zones(files, name, count) for name, count in _counts(poly).items()}
+    counts = {"cellZones": poly.n_cells, "faceZones": len(poly.faces), "pointZones": len(poly.points)}
+    zones = {name: read_zones(files, name, count) for name, count in counts.items()}
     pinned, notes, unread = _polyhedra(poly, cells)
     sides = {patch.name: patch.faces for patch in poly.patches}
     sides |= {name: faces for name, faces in zones["faceZones"].items() if name not in sides}
@@ -132,10 +134,6 @@ def read_poly_mesh(files: CaseFiles) -> PolyMesh:
     return PolyMesh(points, faces, owner, neighbour, patches)
 
 
-def _counts(poly: PolyMesh) -> dict[str, int]:
-    return {"cellZones": poly.n_cells, "faceZones": len(poly.faces), "pointZones": len(poly.points)}
-
-
 def _pairs(patches: list[Patch]) -> tuple[tuple[str, str], ...]:
     """Cyclic patches, each pair once."""
     found = {frozenset((patch.name, patch.neighbour)): (patch.name, patch.neighbour) for patch in reversed(patches)}
@@ -146,8 +144,7 @@ def _blocks(poly: PolyMesh, cells: dict, zones: dict[str, np.ndarray]) -> list[B
     """Blocks of the cells; their numbers are kept as ids where hexes are not all of the cells."""
     blocks = []
     for kind, (numbers, nodes) in cells.items():
-        place = np.full(poly.n_cells, -1)
-        place[numbers] = np.arange(len(numbers))
+        place = index_of(numbers, poly.n_cells)
         sets = {name: place[members][place[members] >= 0] for name, members in zones.items()}
         sets = {name: members for name, members in sets.items() if kind == "hex" or len(members)}
         data = {} if len(numbers) == poly.n_cells else {ID: numbers}
@@ -196,8 +193,7 @@ def _polyhedra(poly: PolyMesh, cells: dict) -> tuple[np.ndarray | None, tuple[st
         return None, (), {}
     at = other[poly.owner]
     at[: len(poly.neighbour)] |= other[poly.neighbour]
-    pinned = np.zeros(len(poly.points), bool)
-    pinned[poly.faces.values[np.repeat(at, poly.faces.lengths)]] = True
+    pinned = mask(poly.faces.values[np.repeat(at, poly.faces.lengths)], len(poly.points))
     found = count_phrase(n_other, "polyhedron is", "polyhedra are")
     note = f"{found} kept in the case alone (cells with hanging nodes, or collapsed), and their nodes are fixed."
     return pinned, (note,), {"polyhedral shape": n_other}

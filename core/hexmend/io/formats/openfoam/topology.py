@@ -2,24 +2,114 @@
 
 Internal faces come first, by owner and then by neighbour; the owner is the cell of the lower number, and the normal of
 a face points out of it. The faces of each patch follow one another.
+
+Order of the corners of cells: polyMesh has none, and needs faces with normals that point out of the cells.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise, permutations
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import from_mesh
+from hexmend.io.base.capabilities import make_unique
+from hexmend.io.base.content import concatenate_sets, from_mesh
 from hexmend.io.base.lower_order import reduce_order
-from hexmend.io.base.polyhedra import LOOPS, faces_from_cells
-from hexmend.io.base.unique_names import make_unique
+from hexmend.io.base.polyhedra import LOOPS, check_distinct_nodes, faces_from_cells
 from hexmend.io.formats.openfoam.boundary import DEFAULT_PATCH, Patch
-from hexmend.io.formats.openfoam.standard_order import with_outward_faces
-from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, FACES, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
+
+#: Numbering of the mirrored cell of each kind but hexes.
+_MIRRORED = {"tetra": [0, 2, 1, 3], "pyramid": [0, 3, 2, 1, 4], "wedge": [0, 2, 1, 3, 5, 4]}
+#: Cells that are ordered at a time, which limits the memory.
+_CHUNK = 1 << 16
+
+
+def standard_order(kind: str, cells: np.ndarray) -> np.ndarray:
+    """Rotate cells so that the lowest possible node comes first, and the lowest possible one second.
+
+    Parameters
+    ----------
+    kind : str
+        A key of `ROTATIONS`.
+    cells : (k, width) int64
+        Nodes in VTK's order.
+
+    Returns
+    -------
+    (k, width) int64
+        The same cells in VTK's order, not mirrored.
+
+    Examples
+    --------
+    >>> standard_order("tetra", np.array([[7, 3, 5, 4]]))
+    array([[3, 4, 5, 7]])
+    """
+    turns, ordered = ROTATIONS[kind], np.empty_like(cells)
+    for begin in range(0, len(cells), _CHUNK):
+        part = cells[begin : begin + _CHUNK].astype(np.int64)
+        limit = part.max() + 1
+        best = (part[:, turns[:, 0]] * limit + part[:, turns[:, 1]]).argmin(axis=1)
+        ordered[begin : begin + _CHUNK] = np.take_along_axis(part, turns[best], axis=1)
+    return ordered
+
+
+def with_outward_faces(kind: str, cells: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Mirror the numbering of cells with a negative volume: not all programs number wedges alike.
+
+    Parameters
+    ----------
+    kind : str
+        "tetra", "pyramid" or "wedge"; hexes are returned as they are.
+    cells : (k, width) int
+    points : (n, 3) float64
+
+    Returns
+    -------
+    (k, width) int
+    """
+    if kind not in _MIRRORED:
+        return cells
+    corners = points[cells] - points[cells].mean(axis=1, keepdims=True)
+    volume = np.zeros(len(cells))
+    for first, *others in LOOPS[kind]:  # seen from inside
+        for second, third in pairwise(others):
+            normal = np.cross(corners[:, second], corners[:, third])
+            volume -= np.einsum("ki,ki->k", corners[:, first], normal)
+    return np.where(volume[:, None] < 0, cells[:, _MIRRORED[kind]], cells)
+
+
+def _hex_rotations() -> list[list[int]]:
+    """The 24 rotations: corner a comes first, and one of its neighbours second."""
+    turns = []
+    for a, *neighbours in CORNER_TETRAHEDRA.tolist():
+        for k in range(3):
+            corners = UNIT_CUBE[a] + UNIT_CUBE @ (UNIT_CUBE[np.roll(neighbours, -k)] - UNIT_CUBE[a])
+            turns.append([int((corner == UNIT_CUBE).all(axis=1).argmax()) for corner in corners])
+    return turns
+
+
+def _is_even(order: tuple[int, ...]) -> bool:
+    return sum(a > b for k, a in enumerate(order) for b in order[k + 1 :]) % 2 == 0
+
+
+#: Numberings of each kind that describe the same cell, in VTK's order, (r, width).
+ROTATIONS = {
+    "hex": np.array(_hex_rotations()),
+    "wedge": np.array(
+        [
+            [0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3], [2, 0, 1, 5, 3, 4],
+            [3, 5, 4, 0, 2, 1], [5, 4, 3, 2, 1, 0], [4, 3, 5, 1, 0, 2],
+        ]
+    ),
+    "pyramid": np.array([[0, 1, 2, 3, 4], [1, 2, 3, 0, 4], [2, 3, 0, 1, 4], [3, 0, 1, 2, 4]]),
+    "tetra": np.array([order for order in permutations(range(4)) if _is_even(order)]),
+}  # fmt: skip
+
 
 #: Types of patches that need no other entries; `cyclic` needs the other patch. Others become patch.
 _TYPES = frozenset({"patch", "wall", "symmetry", "symmetryPlane", "empty", "wedge"})
@@ -79,7 +169,7 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
     """
     content = reduce_order(from_mesh(mesh), frozenset(LOOPS) | {"triangle", "quad"})
     volumes = [block for block in content.blocks if block.kind in LOOPS]
-    _check_cells(path, volumes)
+    check_distinct_nodes(path, volumes, "its faces do not form a polyhedron")
     outward = [(block.kind, with_outward_faces(block.kind, block.nodes, content.points)) for block in volumes]
     loops, halves = faces_from_cells(outward)
     n_faces, n_cells = len(loops), len(halves)
@@ -101,7 +191,7 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
     number = np.empty(n_faces, np.int64)
     number[every] = np.arange(n_faces)
     starts = len(inner) + np.cumsum([0, *map(len, outer)])
-    cells_by_set = _cell_zones(volumes)
+    cells_by_set = concatenate_sets([block.sets for block in volumes], [len(block) for block in volumes])
     turned = np.where(loops[:, 3:] < 0, np.column_stack([loops[:, 2::-1], loops[:, 3:]]), loops[:, ::-1])
     titles = zone_titles(mesh)
     return PolyTopology(
@@ -111,19 +201,10 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
         other[inner],
         _described(mesh, patches, starts),
         n_cells,
-        {titles[name]: members for name, members in cells_by_set.items()},
+        {titles[name]: np.unique(members) for name, members in cells_by_set.items()},
         {titles[name]: np.unique(nodes) for name, nodes in content.node_sets.items()},
         {titles[name]: (number[faces], owner[faces] != hexes) for name, (faces, hexes) in zones.items()},
     )
-
-
-def _check_cells(path: Path, volumes: list) -> None:
-    """Raise `FileError` for a cell with a repeated node."""
-    for block in volumes:
-        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
-        if twice.size:
-            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces do not form a polyhedron"
-            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
 
 
 def _cells_of_faces(face: np.ndarray, cell: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -151,9 +232,10 @@ def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_
         else:
             taken[faces] = True
             patches.append((name, faces))
-    keys = {tuple(sorted(loops[face].tolist())): face for face in np.flatnonzero(~taken)} if _has_sets(content) else {}
-    for block in content.blocks:
-        for name, members in block.sets.items() if block.kind in ("triangle", "quad") else ():
+    lower = [block for block in content.blocks if block.kind in ("triangle", "quad") and block.sets]
+    keys = {tuple(sorted(loops[face].tolist())): face for face in np.flatnonzero(~taken)} if lower else {}
+    for block in lower:
+        for name, members in block.sets.items():
             nodes = np.sort(block.nodes[members], axis=1).tolist()
             found = (keys.pop((-1, *row) if len(row) == 3 else tuple(row), None) for row in nodes)
             faces = np.array([face for face in found if face is not None], np.int64)
@@ -163,10 +245,6 @@ def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_
     if rest.size:
         _extend(patches, DEFAULT_PATCH, rest)
     return patches, zones
-
-
-def _has_sets(content) -> bool:
-    return any(block.sets for block in content.blocks if block.kind in ("triangle", "quad"))
 
 
 def _extend(patches: list[tuple[str, np.ndarray]], name: str, faces: np.ndarray) -> None:
@@ -189,16 +267,6 @@ def _described(mesh: Mesh, patches: list[tuple[str, np.ndarray]], starts: np.nda
         kind = kind if kind in _TYPES or other else "patch"
         described.append(Patch(titles[name], kind, start, len(faces), titles.get(other, "")))
     return described
-
-
-def _cell_zones(volumes) -> dict[str, np.ndarray]:
-    members: dict[str, list[np.ndarray]] = {}
-    first = 0
-    for block in volumes:
-        for name, own in block.sets.items():
-            members.setdefault(name, []).append(np.asarray(own, np.int64) + first)
-        first += len(block)
-    return {name: np.unique(np.concatenate(parts)) for name, parts in members.items()}
 
 
 def patch_titles(mesh: Mesh) -> dict[str, str]:

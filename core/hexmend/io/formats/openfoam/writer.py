@@ -10,17 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.capabilities import altered_names
 from hexmend.io.base.lower_order import lost_mid_nodes
 from hexmend.io.base.polyhedra import LOOPS
-from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.openfoam.case import SUFFIXES, CaseFiles, case_folder, find_case
-from hexmend.io.formats.openfoam.foam_text import write_poly_mesh
-from hexmend.io.formats.openfoam.points import replaced_points
+from hexmend.io.formats.openfoam.foam_text import replaced_points, write_poly_mesh
 from hexmend.io.formats.openfoam.reader import read
 from hexmend.io.formats.openfoam.topology import patch_titles, poly_topology, zone_titles
 from hexmend.io.storage.atomic import atomic_write
-from hexmend.io.storage.temporary_files import flush_folder, make_folder
-from hexmend.io.storage.temporary_folder import temporary_folder
+from hexmend.io.storage.temporary_files import flush_folder, make_folder, temporary_folder
 from hexmend.mesh.mesh import Mesh
 
 #: Advice where a case holds another mesh than the one to be written.

@@ -15,7 +15,7 @@ from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import unread_note
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import TYPE_BY_KIND, WIDTH_BY_TYPE, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
@@ -134,10 +134,6 @@ def _check(cursor: ByteCursor, name: str, values: np.ndarray, limit: int) -> Non
         raise cursor.error(f"{name} refer to {outside}: expected numbers from 0 to {limit - 1}")
 
 
-def _matches(head: bytes) -> bool:
-    return head[:9].upper() == b"OVM ASCII"
-
-
 register(
     name="ovm",
     title="OpenVolumeMesh",
@@ -147,5 +143,5 @@ register(
     write=write,
     capabilities=frozenset({*_DATA, *_SETS, Capability.OTHER_CELLS}),
     limitations=limitations,
-    matches=_matches,
+    matches=lambda head: head[:9].upper() == b"OVM ASCII",
 )

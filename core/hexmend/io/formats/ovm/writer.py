@@ -12,14 +12,13 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.errors import FileError
+from hexmend.io.base.capabilities import altered_names, make_unique
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import runs
-from hexmend.io.base.polyhedra import LOOPS, RaggedArray, faces_from_cells
-from hexmend.io.base.unique_names import altered_names, make_unique
+from hexmend.io.base.polyhedra import LOOPS, RaggedArray, check_distinct_nodes, faces_from_cells
 from hexmend.io.formats.vtk.grid import from_content
 from hexmend.mesh.mesh import Mesh
 
@@ -30,11 +29,7 @@ _KINDS = frozenset(LOOPS)
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write vertices, edges, faces, polyhedra and properties; mid-nodes are left out."""
     content = reduce_order(replace(content_of(mesh), node_data=with_marks(mesh)), _KINDS)
-    for block in content.blocks:
-        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
-        if twice.size:
-            problem = f"{block.kind} {twice[0]} has a node twice, so that OpenVolumeMesh cannot store its faces"
-            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
+    check_distinct_nodes(path, content.blocks, "OpenVolumeMesh cannot store its faces")
     loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))
     grid = from_content(content)

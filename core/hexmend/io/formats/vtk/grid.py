@@ -10,12 +10,11 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.errors import FileError
-from hexmend.io.base.cell_kinds import node_count
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, merge_blocks
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, merge_blocks, node_count
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import unread_note
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
@@ -149,7 +148,7 @@ def from_content(content: Content) -> Grid:
     lengths = [len(block) for block in content.blocks]
     node_data = dict(content.node_data)
     for name, members in content.node_sets.items():
-        node_data[_SET + name] = _mask(members, len(content.points))
+        node_data[_SET + name] = mask(members, len(content.points)).view(np.uint8)
     widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])
     types = np.concatenate([np.full(len(block), TYPE_BY_KIND[block.kind], np.uint8) for block in content.blocks])
     start, nodes = np.concatenate([[0], np.cumsum(widths)]), [block.nodes.ravel() for block in content.blocks]
@@ -158,7 +157,8 @@ def from_content(content: Content) -> Grid:
 
 
 def _with_set_arrays(block: Block) -> dict[str, np.ndarray]:
-    return {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
+    marks = {_SET + name: mask(members, len(block)).view(np.uint8) for name, members in block.sets.items()}
+    return {**block.data, **marks}
 
 
 def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarray]:
@@ -235,9 +235,3 @@ def _split_sets(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], 
         else:
             arrays[name] = values
     return arrays, sets
-
-
-def _mask(members: np.ndarray, length: int) -> np.ndarray:
-    mask = np.zeros(length, np.uint8)
-    mask[np.asarray(members, dtype=np.int64)] = 1
-    return mask

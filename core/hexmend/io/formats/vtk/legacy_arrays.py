@@ -7,6 +7,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.storage.binary_rows import native
 
 #: NumPy types of VTK's types, without the byte order.
@@ -112,15 +113,9 @@ def split_cells(cursor: ByteCursor, flat: np.ndarray, count: int) -> tuple[np.nd
     """
     if len(flat) == 9 * count and (flat[::9] == 8).all():
         return 8 * np.arange(count + 1), np.ascontiguousarray(flat.reshape(-1, 9)[:, 1:]).ravel()
-    widths, at = np.empty(count, np.int64), 0
-    for i in range(count):
-        if at >= len(flat) or flat[at] < 0:
-            raise cursor.error(f"CELLS ends in cell {i} of the {count} that CELL_TYPES names")
-        widths[i] = flat[at]
-        at += 1 + int(flat[at])
-    if at != len(flat):
-        raise cursor.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {at}")
-    start = np.concatenate([[0], np.cumsum(widths)])
-    is_node = np.ones(len(flat), dtype=bool)
-    is_node[start[:-1] + np.arange(count)] = False
-    return start, flat[is_node]
+    cells, whole = RaggedArray.of_counted_rows(flat)
+    if len(cells) > count:
+        raise cursor.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {cells.start[count] + count}")
+    if len(cells) < count or not whole:
+        raise cursor.error(f"CELLS ends in cell {len(cells) - (not whole)} of the {count} that CELL_TYPES names")
+    return cells.start, cells.values

@@ -14,12 +14,11 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
-from hexmend.io.base.remedies import check_suffix
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import check_suffix, unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
 from hexmend.io.formats.vtk.legacy_writer import write
-from hexmend.io.storage.file_bytes import FileBytes
+from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes in which the first line must end.

@@ -1,16 +1,39 @@
-"""Merging of the pieces of a grid, without ghost cells."""
+"""Merging of the pieces of a grid, without ghost cells.
+
+Names in PVTU files: those of pieces, and of arrays that number the nodes and cells of all pieces.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from hexmend.arrays import index_of
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.arrays import index_of, mask
+from hexmend.io.base.remedies import unread_note
 from hexmend.io.formats.vtk.grid import Grid
-from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID
+from hexmend.io.formats.vtk.xml_document import Document
+
+#: Arrays of the numbers, from 0, that nodes and cells of a piece have in the whole mesh.
+NODE_ID, CELL_ID = "GlobalNodeId", "GlobalElementId"
+
+
+def piece_names(path: Path) -> list[str]:
+    """List the names of the pieces of a PVTU file.
+
+    Raises
+    ------
+    FileError
+        For another file, and for one without pieces.
+    """
+    with Document(path, "PUnstructuredGrid") as document:
+        names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
+        if not names:
+            raise document.error("lists no pieces")
+    return names
+
 
 #: Arrays that mark cells and nodes of other pieces, and the bits that do.
 GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
@@ -127,8 +150,7 @@ def _without_ghosts(grid: Grid) -> Grid:
     if not ghost.any() or (nodes.size and (nodes.min() < 0 or nodes.max() >= len(grid.points))):
         return replace(grid, nodes=nodes, node_data=node_data, cell_data=data, notes=())
     widths = np.diff(grid.start)
-    dropped = np.zeros(len(grid.points), bool)
-    dropped[nodes[np.repeat(ghost, widths)]] = True
+    dropped = mask(nodes[np.repeat(ghost, widths)], len(grid.points))
     dropped[nodes[np.repeat(~ghost, widths)]] = False
     types, start = np.asarray(grid.types)[~ghost], np.concatenate([[0], np.cumsum(widths[~ghost])])
     nodes = (np.cumsum(~dropped) - 1)[nodes[np.repeat(~ghost, widths)]]

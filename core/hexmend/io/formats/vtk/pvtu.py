@@ -11,8 +11,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.format import Capability, register
 from hexmend.io.files import check_readable
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.merge_grids import merge_grids
-from hexmend.io.formats.vtk.piece_names import piece_names
+from hexmend.io.formats.vtk.merge_grids import merge_grids, piece_names
 from hexmend.io.formats.vtk.pvtu_writer import names_not_kept, remove, write
 from hexmend.io.formats.vtk.vtu import read_grids
 from hexmend.mesh.mesh import Mesh
@@ -69,10 +68,6 @@ def _piece_path(path: Path, name: str) -> Path:
     return path.parent / relative
 
 
-def _matches(head: bytes) -> bool:
-    return _ROOT.search(head) is not None
-
-
 register(
     name="pvtu",
     title="PVTU",
@@ -82,7 +77,7 @@ register(
     write=write,
     capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
     limitations=names_not_kept,
-    matches=_matches,
+    matches=lambda head: _ROOT.search(head) is not None,
     included=included_files,
     remove=remove,
 )

@@ -22,7 +22,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
-from hexmend.io.formats.vtk.piece_names import CELL_ID, NODE_ID, piece_names
+from hexmend.io.formats.vtk.merge_grids import CELL_ID, NODE_ID, piece_names
 from hexmend.io.formats.vtk.vtu_writer import array_attributes, writable, write_grid
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.temporary_files import flush_folder

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.format import Capability, register
-from hexmend.io.coordinates.unread import unread_note
+from hexmend.io.base.remedies import unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import write
@@ -82,7 +82,7 @@ def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) 
     if points and _width(document, found[0]) != 3:
         raise document.error(f"its Points have {_width(document, found[0])} coordinates each: expected 3")
     points_flat = read_values(document, found[0], 3 * points) if points else np.empty(0)
-    arrays = {array.get("Name"): array for array in piece.first("Cells").arrays()}
+    arrays = piece.first("Cells").arrays_by_name()
     for name in ("connectivity", "offsets", "types"):
         if cells and name not in arrays:
             raise document.error(f"its Cells hold no array {name!r}")

@@ -64,6 +64,10 @@ class XMLElement:
         """Return the first child with a name, or an empty element."""
         return next(self.all(name), XMLElement(name, {}))
 
+    def arrays_by_name(self) -> dict[str, XMLElement]:
+        """Child elements that are arrays, by name."""
+        return {array.get("Name"): array for array in self.arrays()}
+
     def arrays(self) -> list[XMLElement]:
         """Return the children that are arrays."""
         return [child for child in self.children if child.name in ("DataArray", "Array")]

@@ -4,19 +4,9 @@ import math
 
 import numpy as np
 
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality.finite_volume.geometry import divide
-from hexmend.quality.measure import ElementQuality
 from hexmend.quality.metric import Metric
 from hexmend.quality.validity import jacobian_bounds
-
-
-def _of_corners(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
-    return _ratio(jacobian_bounds(points, hexes))
-
-
-def _of_mesh(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    return _ratio(jacobian_bounds(mesh.points, mesh.hexes, mesh.mid_nodes))
 
 
 def _ratio(bounds: np.ndarray) -> np.ndarray:
@@ -39,6 +29,6 @@ JACOBIAN_RATIO = Metric(
     acceptable=(1.0, 30.0),
     better=-1,
     meaning="High values mean a map to the hex that is far from linear: quadrature loses accuracy.",
-    of=_of_corners,
-    of_mesh=_of_mesh,
+    of=lambda points, hexes, quality: _ratio(jacobian_bounds(points, hexes)),
+    of_mesh=lambda mesh, quality: _ratio(jacobian_bounds(mesh.points, mesh.hexes, mesh.mid_nodes)),
 ).register()

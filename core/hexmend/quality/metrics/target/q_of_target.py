@@ -1,7 +1,7 @@
 """q of target: q(H) of the hex as its target maps it to a cube; q(H) itself in a mesh without a target."""
 
+from hexmend.quality.mesh_quality import measure_against_target
 from hexmend.quality.metric import Metric
-from hexmend.quality.target_quality import measure_against_target
 
 Q_OF_TARGET = Metric(
     name="q-of-target",

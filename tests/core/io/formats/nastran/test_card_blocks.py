@@ -5,7 +5,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.formats.nastran.card_blocks import Lines
+from hexmend.io.formats.nastran.bulk import Lines
 from hexmend.mesh.cells import Cells
 from tests.core.grids import grid, scrambled
 from tests.core.io.base.test_capabilities import quadratic
