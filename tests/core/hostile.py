@@ -22,7 +22,6 @@ from hexmend.mesh.patches import partition_patches
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, locked_hexes, rank_worst
-from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2)
@@ -107,9 +106,6 @@ CALLS: dict[str, Callable[[object], object]] = {
     "Assembled.solve": lambda v: MATRIX.solve(v, 1e-3, 5),
     "SlidingHessian": lambda v: SLIDING_HESSIAN.matvec(v),
     "SlidingHessian, assembled": lambda v: SLIDING_HESSIAN.assembled().matvec(v),
-    "local_sweeps": lambda v: local_sweeps(ENERGY, v, np.ones(M, bool), np.zeros(M, np.uint8), 0.0, 1),
-    "local_sweeps, around": lambda v: local_sweeps(ENERGY, X.copy(), v, np.zeros(M, np.uint8), 0.0, 1),
-    "local_sweeps, left out": lambda v: local_sweeps(ENERGY, X.copy(), np.ones(M, bool), v, 0.0, 1),
     "parameter, number": lambda v: hx.LocalSteepestDescent(surface_tolerance=v),
     "parameter, choice": lambda v: hx.LocalSteepestDescent(boundary=v),
     "Topology": lambda v: Topology(v, N).node_corners,

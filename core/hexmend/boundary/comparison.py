@@ -145,7 +145,8 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     new = old.with_points(after.points)
     spacing = SAMPLE_DISTANCE * before.mean_edge_length
     # Where faces overlap, all boxes at a place would be searched for a piece closer than the one on which it lies.
-    near = ROUNDING * before.mean_edge_length
+    rounding = ROUNDING * before.mean_edge_length
+    near = 1e-6 * rounding  # distances below are not told apart
     if after.target is None:
         pieces = old.pieces_of_samples
         both = new.distances(old.samples(), near, pieces), old.distances(new.samples(), near, pieces)
@@ -162,7 +163,7 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
         edge_length=before.mean_edge_length,
         diagonal=float(np.linalg.norm(extent(was))),
         volume_change=(new.volume() - volume) / volume if volume else 0.0,
-        moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > near)),
+        moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > rounding)),
         features=int(np.count_nonzero(sharp)),
         features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > least))),
         reference="" if after.target is None else after.target.name or "the surface",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -19,9 +18,8 @@ from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import TargetScales
 from hexmend.energy.workspace import Workspace
-from hexmend.kernels import local, step_limits
 from hexmend.kernels import objective as kernels
-from hexmend.kernels.local import NodeStepSettings
+from hexmend.kernels import step_limits
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -303,15 +301,6 @@ class MeshEnergy(TargetScales):
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
         """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
         return self.ranks.complete(marks)
-
-    def sweep(self, x: np.ndarray, chosen: np.ndarray) -> Callable[[NodeStepSettings], None]:
-        """Make a function that sweeps over chosen nodes (n,) bool with local steps; it changes their rows of x (n, 3).
-
-        No two nodes of a hex move at once.
-        """
-        topology = self.mesh.topology
-        colours = topology.colouring(chosen)
-        return lambda settings: local.sweep(x, topology.hex_mesh, colours.start, colours.items, settings)
 
     @property
     def corner_buffer(self) -> np.ndarray:

@@ -35,7 +35,7 @@ _INSIDE = 0.95
 #: Share of what is left that a sample may use in a step.
 _USED = 0.9
 #: Tolerance, in mean edge lengths, of samples without one.
-_NO_LIMIT = 1e3
+NO_LIMIT = 1e3
 
 
 @dataclass(frozen=True)
@@ -180,11 +180,19 @@ class SurfaceFit:
 
     def without_diagonals(self) -> SurfaceFit:
         """Return the fit without a tolerance for the middles of diagonals."""
-        return self.with_weights(self.weight, self.slope, np.where(self.diagonal, _NO_LIMIT, self.tolerances))
+        return self.with_weights(self.weight, self.slope, np.where(self.diagonal, NO_LIMIT, self.tolerances))
 
     def is_within(self, x: np.ndarray, factor: float = 1.0) -> bool:
         """Return True if all samples are within a multiple of their tolerances at positions x (n, 3), with room."""
         return not (self.distances(x) > factor * _INSIDE * self.tolerances).any()
+
+    def exceeding(self, x: np.ndarray, before: np.ndarray) -> np.ndarray:
+        """Mark nodes of samples that are beyond their tolerance at x (n, 3), and were not as far before, (n,) bool."""
+        was, result = self.distances(before), self.result(x)
+        bad = result.distances > np.maximum(self.tolerances, was)
+        marks = np.zeros(self.n, dtype=bool)
+        marks[result.nodes[bad][result.weights[bad] > 0]] = True
+        return marks
 
     def with_weights(self, weight: float = 0.0, slope: float = 0.0, tolerances: np.ndarray | None = None) -> SurfaceFit:
         """Return the fit with another weight of the barrier, slope of the ceiling, and tolerances (s + t,)."""

@@ -73,13 +73,11 @@ class TruncatedNewtonConfig:
         Most iterations of conjugate gradients.
     loosest, tightest : float
         Bounds of the tolerance, in (0, 1).
-    loosest_definite : float, optional
-        The upper bound after a step whose Hessian was positive definite as it is, if it differs.
     gradient_floor : float
         Share of the first gradient at which a solution is as good as rounding allows.
     max_damping_increases : int
         Most increases of the damping in a step.
-    damping_growth, damping_decay : float
+    damping_factor : float
         Factor of an increase, and divisor after a step for which the damping was enough.
     min_damping : float
         Smallest damping that is not 0, as a share of the diagonal.
@@ -89,13 +87,11 @@ class TruncatedNewtonConfig:
     """
 
     iterations: int = 200
-    loosest: float = 0.2
+    loosest: float = 0.1
     tightest: float = 1e-3
-    loosest_definite: float | None = None
     gradient_floor: float = 1e-9
     max_damping_increases: int = 6
-    damping_growth: float = 4.0
-    damping_decay: float = 4.0
+    damping_factor: float = 4.0
     min_damping: float = 0.002
     deflated: bool = False
 
@@ -118,7 +114,7 @@ class TruncatedNewton:
     def __init__(self, config: TruncatedNewtonConfig | None = None):
         self.config = config or TruncatedNewtonConfig()
         self._first = self._last = np.inf
-        self._damping, self._is_definite = 0.0, False
+        self._damping = 0.0
         self._increases, self._used_damping, self._next_damping = 0, 0.0, 0.0  # of this step
         self._last_tolerance = self.config.loosest
         self._matrix: AssembledHessian | None = None
@@ -130,8 +126,8 @@ class TruncatedNewton:
         self._increases, self._last_tolerance = 0, tolerance
         solved, damping, count = self._solve_definite(matrix, gradient, tolerance, self._damping)
         matrix.lend_memory()  # to the next gradient
-        self._is_definite, self._used_damping = damping == 0, damping
-        self._damping = damping if damping > self._damping else damping / config.damping_decay
+        self._used_damping = damping
+        self._damping = damping if damping > self._damping else damping / config.damping_factor
         if self._damping < config.min_damping:
             self._damping = 0.0
         self._next_damping = self._damping
@@ -184,7 +180,7 @@ class TruncatedNewton:
         if solved.negative_curvature:
             self._damping = self._next_damping
             return None
-        self._damping, self._is_definite = damping, False
+        self._damping = damping
         return SearchDirection(-solved.x.reshape(-1, 3), count, damping)
 
     def _solve_definite(
@@ -204,7 +200,7 @@ class TruncatedNewton:
         return solved, damping, count
 
     def _increased(self, damping: float) -> float:
-        return max(self.config.damping_growth * damping, self.config.min_damping)
+        return max(self.config.damping_factor * damping, self.config.min_damping)
 
     def _solve(self, matrix: AssembledHessian, right: np.ndarray, tolerance: float, damping: float) -> CGResult:
         config = self.config
@@ -215,8 +211,7 @@ class TruncatedNewton:
         """Return the tolerance at a gradient of this length."""
         if self._first == np.inf:
             self._first = self._last = length
-        loosest = self.config.loosest_definite if self._is_definite else None
-        loosest = self.config.loosest if loosest is None else loosest
+        loosest = self.config.loosest
         if length == 0:
             return loosest
         goal = max(0.9 * (length / self._last) ** 2, self.config.gradient_floor * self._first / length)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -10,8 +9,6 @@ import numpy as np
 from hexmend.arrays import index_of
 from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.energy.norm import SQUARES
-from hexmend.kernels import local
-from hexmend.kernels.local import NodeStepSettings
 from hexmend.mesh.mesh import Mesh
 from hexmend.ranks.rank_part import RankPart
 
@@ -71,17 +68,3 @@ class RankEnergy(MeshEnergy):
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         return self.ranks.complete(super().moved(x, step, alpha))
-
-    def sweep(self, x: np.ndarray, chosen: np.ndarray) -> Callable[[NodeStepSettings], None]:
-        """See `MeshEnergy.sweep`: ranks take turns at nodes that share a hex with another rank's, then all go on."""
-        topology, part = self.mesh.topology, self.part
-        inner, outer = (topology.colouring(chosen & part.owned & at) for at in (~part.bordering, part.bordering))
-
-        def sweep(settings: NodeStepSettings) -> None:
-            for rank in range(self.ranks.count):
-                if rank == self.ranks.number:
-                    local.sweep(x, topology.hex_mesh, outer.start, outer.items, settings)
-                self.ranks.complete(x)
-            local.sweep(x, topology.hex_mesh, inner.start, inner.items, settings)
-
-        return sweep

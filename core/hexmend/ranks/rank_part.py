@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,12 +47,6 @@ class RankPart:
     owned: np.ndarray
     counted: np.ndarray
     n_hexes: int
-
-    @cached_property
-    def bordering(self) -> np.ndarray:
-        """Owned nodes that share a hex with a node of another rank, (n,) bool."""
-        shared = any_of_rows(~self.owned, self.mesh.hexes)
-        return mask(self.mesh.hexes[shared], self.mesh.n_nodes) & self.owned
 
 
 def divide(mesh: Mesh, count: int) -> np.ndarray:

@@ -5,7 +5,6 @@ import pytest
 
 from hexmend.boundary import SkinSurface, SlidingBoundary
 from hexmend.gallery import make
-from tests.core.grids import grid
 
 
 def on_itself():
@@ -38,19 +37,3 @@ def test_places_directions_and_rejected_nodes_are_the_same(sliding):
     rejected = sliding.rejected_nodes(points, moved)
     assert rejected.size
     np.testing.assert_array_equal(numbers[alone.rejected_nodes(points[numbers], moved[numbers])], rejected)
-
-
-def test_interfaces_are_apart_too_where_nodes_have_left_the_surface():
-    mesh = grid(4, 3, 3)
-    halves = mesh.points[mesh.hexes].mean(axis=1)[:, 0] > 2
-    whole = SlidingBoundary(mesh.replace(hex_data={"material": halves.astype(int)}), max_deviation=0.1)
-    on_face = int(np.flatnonzero((mesh.points == [0, 1, 1]).all(axis=1))[0])
-    sliding = whole.without_nodes(np.array([on_face]), 0.1)
-    alone, numbers = sliding.on_boundary()
-    inner = np.flatnonzero((mesh.points == [2, 1, 1]).all(axis=1))
-    points = mesh.points.copy()
-    points[inner] -= [1.95, 0, 0]  # near the end of the boundary, far from the interface
-    outside = sliding.nodes_outside_band(points)
-    assert {*inner} <= {*outside}
-    assert (mesh.points[outside][:, 0] == 2).all()
-    np.testing.assert_array_equal(numbers[alone.nodes_outside_band(points[numbers])], outside)

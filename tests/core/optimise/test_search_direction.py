@@ -14,7 +14,7 @@ from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, T
 from tests.core.grids import grid, scrambled
 
 CONFIG = TruncatedNewtonConfig()
-FIRST, SECOND = CONFIG.min_damping, CONFIG.damping_growth * CONFIG.min_damping
+FIRST, SECOND = CONFIG.min_damping, CONFIG.damping_factor * CONFIG.min_damping
 
 
 class Matrix:
@@ -59,7 +59,7 @@ def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
     matrix.needed, matrix.asked = 0.0, []
     for _ in range(3):
         find(1.0, np.ones((1, 3)), matrix)
-    assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_decay, 0.0]
+    assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_factor, 0.0]
 
 
 class Shifted:

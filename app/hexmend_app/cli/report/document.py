@@ -8,7 +8,7 @@ from collections.abc import Generator, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.arguments.run_arguments import check_memory
 from hexmend.cli.output.progress import Progress, show_count
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.io.storage.atomic import check_writable

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import index_of, mask
+from hexmend.arrays import mask
 from hexmend.boundary.classification import NodeClass, classify
-from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
@@ -120,26 +118,6 @@ class SlidingBoundary(SlidingNodes):
         leavable[self.nodes] = True
         return leavable & ~self.confined
 
-    def without_nodes(self, nodes: np.ndarray, max_deviation: float) -> SlidingBoundary:
-        """Return the sliding boundary with some nodes (k,) free: they move in all directions, off the surface too.
-
-        The band is `max_deviation` wide, in the mesh's unit, and quads at these nodes may be turned over.
-        """
-        other, freed = copy.copy(self), mask(nodes, self.mesh.n_nodes)
-        for name in _OF_SLIDING_NODES:
-            vars(other).pop(name, None)
-        judged = ~freed[self.boundary.faces].any(axis=1)
-        other.boundary, other.node_class = self.boundary.without_nodes(nodes).with_faces(judged), self.node_class.copy()
-        vars(other)["outward"], other.max_deviation = self.outward[judged], max_deviation
-        other._inner_of_boundary = self._inner_of_boundary[judged]
-        other.node_class[nodes] = NodeClass.INSIDE
-        stays = ~freed[self.nodes]
-        other.nodes, other._group = self.nodes[stays], self._group[stays]
-        other._cache = ClosestPointCache(self.surface.trees, other._group)
-        other._number = index_of(other.nodes, self.mesh.n_nodes)
-        other.mesh = self.mesh.with_fixed(self.mesh.fixed & ~freed)
-        return other
-
     @cached_property
     def curved_nodes(self) -> np.ndarray:
         """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
@@ -150,10 +128,17 @@ class SlidingBoundary(SlidingNodes):
     @cached_property
     def linear_mesh(self) -> Mesh:
         """`mesh`, in which nodes of flat patches and straight curves have a linear motion, in plane and along line."""
-        mesh = self.mesh
+        return self.linear_mesh_without(np.zeros(self.mesh.n_nodes, dtype=bool))
+
+    def linear_mesh_without(self, leaving: np.ndarray) -> Mesh:
+        """Return `linear_mesh` with some nodes (n,) bool free: they move in all directions, off the surface too."""
+        mesh = self.mesh.with_fixed(self.mesh.fixed & ~leaving)
         if self._given is not None or not self._flat:
             return mesh
-        flat, start, given = self._flat, mesh.motion_start.copy(), mesh.linear_motion
+        flat = flat_motion(self.points, self.boundary, self.nodes[~leaving[self.nodes]], self.mesh.mean_edge_length)
+        if not flat:
+            return mesh
+        start, given = mesh.motion_start.copy(), mesh.linear_motion
         start[flat.nodes] = self.points[flat.nodes]
         motion = flat if given is None else given.merge(flat)
         return mesh.with_points(start).with_linear_motion(motion).with_points(mesh.points).with_fixed(mesh.fixed)

@@ -173,8 +173,8 @@ class MaximisedFloor:
 class FloorDirection:
     """Newton direction of a `MaximisedFloor`, by two solutions with one matrix."""
 
-    def __init__(self, energy: MaximisedFloor, newton: TruncatedNewton):
-        self._energy, self._newton = energy, newton
+    def __init__(self, energy: MaximisedFloor, newton: TruncatedNewton | None = None):
+        self._energy, self._newton = energy, newton or TruncatedNewton()
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         energy, ranks = self._energy, hessian.energy.ranks

@@ -17,6 +17,7 @@ from hexmend.optimise.descent import descend
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
 from hexmend.quality import ElementQuality, locked_hexes, measure
+from hexmend.smoothers.mend.floors import FLOORS
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 
 
@@ -43,7 +44,7 @@ class CertificationConfig:
 
     kept_shares: tuple[float, ...] = (0.98, 0.9, 0.5, 0.0)
     rings: int = 2
-    band: float = 0.1
+    band: float = FLOORS.band
     gap: float = 0.25
     min_gap: float = 0.02
     steps: int = 60

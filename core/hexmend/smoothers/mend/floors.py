@@ -1,7 +1,7 @@
 """Floors that rise: the highest minimum scaled Jacobian above a floor of q(H), and the best shape above both.
 
-The floor of the scaled Jacobians is an unknown t, eliminated exactly (`MaximisedFloor`); the gap between it and the
-least falls, as the parameter of an interior point method does.
+The floor of the scaled Jacobians is an unknown t, eliminated exactly (`MaximisedFloor`), whose reward grows as the
+parameter of an interior point method does; the weight of the barrier stays.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.ranks import Ranks
 from hexmend.energy.surface_fit import SurfaceFit
 from hexmend.iteration import ActiveSet, Step
-from hexmend.optimise.descent import Descent, descend
+from hexmend.optimise.descent import DESCENT, Descent, descend
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
-from hexmend.optimise.search_direction import DirectionMethod, TruncatedNewton, TruncatedNewtonConfig
+from hexmend.optimise.search_direction import DirectionMethod, TruncatedNewton
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 
 
@@ -30,68 +30,53 @@ class FloorsConfig:
 
     Parameters
     ----------
-    reward, reward_growth : float
-        Of a higher floor, with the first gap, and its factor from one gap to the next: stretched hexes resist a rise.
-    gaps : (float, float)
-        Between floor and least, first and last; each is a quarter of the one before.
-    bands : (float, float)
-        Least and greatest width of the barrier, which is 200 gaps.
+    weight : float
+        Of the barrier, as a multiple of the shape energy of a hex.
+    first_gap : float
+        Between floor and least value; the reward of a higher floor is the weight divided by the gap.
+    growth : float
+        Of the reward, each time that nodes are centred: stretched hexes resist a rise, and the gap becomes smaller.
+    band : float
+        Width of the barrier.
     steps : int
-        Most Newton steps with one gap.
+        Most Newton steps of a round.
     centred : float
         Slope, as a share of the barrier's weight, at which nodes are centred.
-    rising : float
-        A gap is kept while the least rises by more than this share of it, or of 0.1.
     accuracy : float
-        See `Floors.rise`.
+        The least has risen as far as it goes where it changes by no more than this share of it, or of 0.1, in a round,
+        and is as near the floor.
     rounds : int
-        Most gaps.
+        Most rounds.
     rings : int
         Layers of hexes around those near the floors whose nodes move.
-    whole : float
-        Share of the mesh from which on all its nodes move.
-    loosest : float
-        Of `TruncatedNewtonConfig`.
     active : float
         Share of the greatest multiplier from which on a corner counts as active.
     fit_share : float
-        Weight of the fit as a share of that of the barrier with the first reward.
-    relax_weights : tuple of float
+        Weight of the fit as a share of that of the barrier.
+    relax_weight : float
         Of the barriers while the shape improves above floors.
-    relax_band : float
-        Width of these barriers.
-    relax_fit : float
-        Weight of the fit.
-    relax_steps : int
     relaxed : float
         Slope, as a share of the energy, at which the shape is relaxed.
     """
 
-    reward: float = 1e3
-    reward_growth: float = 1.5
-    gaps: tuple[float, float] = (0.02, 1e-4)
-    bands: tuple[float, float] = (0.02, 0.1)
+    weight: float = 7.0
+    first_gap: float = 0.02
+    growth: float = 2.0
+    band: float = 0.1
     steps: int = 12
-    centred: float = 0.03
-    rising: float = 0.03
-    accuracy: float = 3e-3
-    rounds: int = 30
+    centred: float = 0.1
+    accuracy: float = 5e-3
+    rounds: int = 60
     rings: int = 2
-    whole: float = 0.5
-    loosest: float = 0.1
     active: float = 0.1
     fit_share: float = 0.05
-    relax_weights: tuple[float, ...] = (1.0, 0.1, 0.01)
-    relax_band: float = 0.1
-    relax_fit: float = 0.02
-    relax_steps: int = 8
+    relax_weight: float = 0.1
     relaxed: float = 1e-4
 
 
 FLOORS = FloorsConfig()
 #: Minimum scaled Jacobian above which the energy's barrier can be used.
-BARRIER_SAFE = 0.02
-_GAPS_PER_BAND = 200.0
+BARRIER_SAFE = FLOORS.first_gap
 
 
 class Values:
@@ -137,7 +122,7 @@ class Floors:
         config: FloorsConfig = FLOORS,
     ):
         self.energy, self._config, self._movable, self._hexes = energy, config, movable, movable(energy)
-        self.solver_iterations, self.reward = 0, config.reward
+        self.solver_iterations, self.reward = 0, config.weight / config.first_gap
         self._touched = np.zeros(energy.mesh.n_hexes, dtype=bool)  # hexes that have moved while floors rose
         self.move_to(energy.to_edge_units(points))
 
@@ -149,7 +134,8 @@ class Floors:
     def active_set(self) -> ActiveSet:
         """Find the corners that hold the floor down, by their multipliers: the shares of the reward."""
         config = self._config
-        reward = Reward(config.reward, config.gaps[1], config.bands[0])
+        gap = config.accuracy * config.first_gap
+        reward = Reward(config.weight / gap, gap, config.band)
         maximised = MaximisedFloor(self.energy, reward, self._hexes)
         hexes, nodes, shares = maximised.multipliers(self.values.x)
         heavy = np.flatnonzero(shares > config.active * shares.max(initial=0.0))
@@ -167,36 +153,36 @@ class Floors:
     def _values(self, x: np.ndarray) -> Values:
         return Values(self.energy.ranks, x, self._hexes.jacobians(x), self._hexes.qualities(x))
 
+    def continued(self, energy: MeshEnergy, points: np.ndarray) -> Floors:
+        """Return the nodes at points (n, 3) of an energy of the same hexes, with the reward that was reached."""
+        other = Floors(energy, points, self._movable, self._config)
+        other.reward, other._touched = self.reward, self._touched
+        return other
+
     def rise(
         self,
         quality_floor: float = -np.inf,
         enough: float = np.inf,
-        first_gap: float = FLOORS.gaps[0],
-        accuracy: float = FLOORS.accuracy,
     ) -> Generator[Step, None, None]:
         """Raise the minimum scaled Jacobian above a floor of q(H), to which q(H) rises first where it is lower.
 
-        It may be lower for some gaps; it ends where it was highest.
+        It may be lower for some rounds; it ends where it was highest.
 
         Parameters
         ----------
         quality_floor : float
         enough : float
             It ends where the minimum scaled Jacobian has reached this.
-        first_gap : float
-            Smaller where it is nearly as high as it goes.
-        accuracy : float
-            It ends where the least rises by no more than this share of it, or of 0.1, and is as near the floor.
 
         Yields
         ------
         Step
-            After each gap.
+            After each round.
         """
         best = self.values
         if not best.jacobian < np.inf:  # no corner can be moved
             return
-        for step in self._gaps(quality_floor, enough, first_gap, accuracy):
+        for step in self._rounds(quality_floor, enough):
             is_kept = self.values.quality >= min(quality_floor, best.quality)
             best = self.values if is_kept and self.values.jacobian >= best.jacobian else best
             yield step
@@ -204,91 +190,87 @@ class Floors:
             self.values = best
             yield self._step()
 
-    def _gaps(self, quality_floor: float, enough: float, gap: float, accuracy: float) -> Iterator[Step]:
-        """Narrow the gap between floor and least; see `rise`."""
-        config, last = self._config, self.values.jacobian
+    def _rounds(self, quality_floor: float, enough: float) -> Iterator[Step]:
+        """Centre the nodes with one reward after the other; see `rise`."""
+        config, least, t = self._config, self.values.jacobian, -np.inf
         for _ in range(config.rounds):
-            floor = min(quality_floor, self.values.quality - gap)
-            band = float(np.clip(_GAPS_PER_BAND * gap, *config.bands))
-            t = self._centre(Reward(self.reward, gap, band, floor), enough)
+            gap = config.weight / self.reward
+            reward = Reward(self.reward, gap, config.band, min(quality_floor, self.values.quality - gap))
+            least_before, t_before, small = least, t, config.accuracy * max(least, 0.1)
+            t, is_centred = self._centre(reward, enough)
             yield self._step(gap=gap)
-            self.reward *= config.reward_growth
-            least, before = self.values.jacobian, last
-            last = least
+            least = self.values.jacobian
             if least >= enough and self.values.quality >= quality_floor:
                 return
-            if least > before + config.rising * max(before, 0.1):
-                continue
-            small = accuracy * max(before, 0.1)
-            if least < before + small and (gap <= config.gaps[1] or least - t < small):
+            if abs(least - least_before) < small and least - t < small:
                 return
-            gap = max(gap / 4, config.gaps[1])
+            if is_centred or t - t_before < small:
+                self.reward *= config.growth
 
     def relax(self, jacobian: float, quality: float, everywhere: bool = False) -> Generator[Step, None, None]:
         """Improve the shape above floors of the scaled Jacobians and of q(H), which are below the present values.
 
         Where hexes have moved while floors rose, and near the floors; or `everywhere`.
         """
-        config, band, values = self._config, self._config.relax_band, self.values
+        config, band, values = self._config, self._config.band, self.values
         near = self._touched | (values.jacobians < jacobian + band) | (values.qualities < quality + band)
         near |= everywhere
         energy, hexes, region = self._around(near)
         x = values.x if region is None else region.inside(values.x)
-        for weight in config.relax_weights:  # at the end the barrier acts close to the floors alone
-            barrier, direction = hexes.barrier(jacobian, quality, band, band, weight), self._newton()
-            above = _fitted(energy, config.relax_fit).with_barrier(barrier)
-            for _ in range(config.relax_steps):
-                step = self._descend(above, x, direction)
-                if step is None:
-                    break
-                x = step.x
-                if -step.slope < config.relaxed * step.value:
-                    break
-            self._take(region, hexes, x)
-            yield self._step()
+        barrier = hexes.barrier(jacobian, quality, band, band, config.relax_weight)
+        above, direction = (
+            _fitted(energy, config.fit_share * config.relax_weight).with_barrier(barrier),
+            TruncatedNewton(),
+        )
+        for _ in range(config.steps):
+            step = self._descend(above, x, direction)
+            if step is None:
+                break
+            x = step.x
+            if -step.slope < config.relaxed * step.value:
+                break
+        self._take(region, hexes, x)
+        yield self._step()
 
-    def _centre(self, reward: Reward, enough: float) -> float:
-        """Minimise with one gap, in the part of the mesh where the barrier acts; returns the floor.
+    def _centre(self, reward: Reward, enough: float) -> tuple[float, bool]:
+        """Minimise with one reward, around the floor, until the least has reached `enough`.
 
-        It ends where the least has reached `enough`.
+        Returns the floor, and whether nodes are centred.
         """
         config, values = self._config, self.values
         near = values.jacobians < values.jacobian + reward.band
         near |= values.qualities < reward.quality_floor + reward.band
         self._touched |= near
         energy, hexes, region = self._around(near)
-        maximised = MaximisedFloor(_fitted(energy, config.fit_share * config.reward * reward.gap), reward, hexes)
-        direction = FloorDirection(maximised, self._newton())
-        x = values.x if region is None else region.inside(values.x)
+        maximised = MaximisedFloor(_fitted(energy, config.fit_share * config.weight), reward, hexes)
+        direction = FloorDirection(maximised)
+        x, is_centred = values.x if region is None else region.inside(values.x), False
         for _ in range(config.steps):
             step = self._descend(maximised.as_energy, x, direction)
-            if step is None:
-                break
-            x = step.x
-            if -step.slope < config.centred * reward.reward * reward.gap:
+            fall = 0.0 if step is None else step.value - maximised.value(step.x)
+            is_centred = fall < config.centred * config.weight
+            x = x if step is None else step.x
+            if is_centred:
                 break
             if enough < np.inf and Values(energy.ranks, x, hexes.jacobians(x), hexes.qualities(x)).jacobian >= enough:
                 break
         self._take(region, hexes, x)
-        return maximised.floor(x).t
+        return maximised.floor(x).t, is_centred
 
     def _descend(self, energy: MeshEnergy, x: np.ndarray, direction: DirectionMethod) -> Descent | None:
-        """Take a step; None where there is none."""
+        """Take a step; None where there is none, or a short one: nodes are as centred as they can be."""
         step = descend(energy, x, 0.0, direction, SEARCH, NEWTON.max_step)
-        if step is None or step.alpha == 0:
+        if step is None or step.alpha < DESCENT.short:
             return None
         self.solver_iterations += step.direction.solver_iterations
         return step
-
-    def _newton(self) -> TruncatedNewton:
-        return TruncatedNewton(TruncatedNewtonConfig(loosest=self._config.loosest))
 
     def _around(self, near: np.ndarray) -> tuple[MeshEnergy, MovableHexes, Region | None]:
         """Energy and hexes of the part of the mesh around some hexes (m,) bool; of the whole without a part."""
         energy, mesh = self.energy, self.energy.mesh
         for _ in range(self._config.rings):
             near = energy.ranks.complete(mask(mesh.hexes[near], mesh.n_nodes))[mesh.hexes].any(axis=1)
-        if not energy.has_parts or energy.count(near) > self._config.whole * energy.n_hexes:
+        if not energy.has_parts or 2 * energy.count(near) > energy.n_hexes:
             return energy, self._hexes, None
         region = Region(energy, np.flatnonzero(near), self.values.x)
         return region.energy, self._movable(region.energy), region

@@ -24,11 +24,7 @@ KEPT_SHARES = ((0.96, False), (0.96, True), (0.85, True), (0.6, True), (0.0, Tru
 #: Share by which the least values may fall where a mesh has a target.
 TARGET_FALL = 0.05
 #: Least values count in steps of this share in the choice of the best iterate: the shape improves within one.
-STEP_OF_LEAST = 0.005
-#: Accuracy of a rise of which the last 4 % are given up.
-ROUGH = 0.01
-#: First gap of a rise from figures that are not reached otherwise.
-_SMALL_GAP = 1e-3
+STEP_OF_LEAST = FLOORS.accuracy
 
 
 class Reached(NamedTuple):
@@ -88,12 +84,11 @@ def reach_goal(
     floors = Floors(energy, starts[-1])
     if settings.maximises_jacobian or not floors.values.jacobian >= BARRIER_SAFE:
         floors.values = max(map(floors.values_at, starts), key=lambda values: values.jacobian)
-        enough = np.inf if settings.maximises_jacobian else BARRIER_SAFE
-        floors, boundary = yield from _raise(floors, boundary, enough=enough)
-        if settings.maximises_jacobian:
-            yield from floors.rise(first_gap=_SMALL_GAP)
+        yield from floors.rise(enough=np.inf if settings.maximises_jacobian else BARRIER_SAFE)
+    top = floors.values
+    floors, boundary = _exact(floors, boundary)
     if settings.maximises_jacobian:
-        yield from _relax(floors, floors.values_at(given).jacobian)
+        yield from _relax(floors, top.jacobian, floors.values_at(given).jacobian)
         active = floors.active_set()
         message = limit_message(floors.energy.mesh, active, floors.values.jacobian, "scaled Jacobian")
         return Reached(floors.points, message, active, boundary)
@@ -105,25 +100,31 @@ def reach_goal(
     return Reached(floors.points, boundary=boundary)
 
 
-def _raise(
-    floors: Floors, boundary: FreeBoundary | None, quality_floor: float = -np.inf, enough: float = np.inf
-) -> Generator[Step, None, tuple[Floors, FreeBoundary | None]]:
-    """Raise floors, once more with the corners and curves free at the lowest hexes, where these have any."""
-    yield from floors.rise(quality_floor, enough, accuracy=ROUGH)
-    if boundary is not None and floors.values.jacobian < min(SOUND, enough):
-        wider = boundary.with_features(floors.points)
-        if wider is not None:
-            boundary, floors = wider, Floors(wider.fitted, floors.points)
-            yield from floors.rise(quality_floor, enough, first_gap=FLOORS.gaps[0] / 4, accuracy=ROUGH)
-    return floors, boundary
+def _exact(
+    floors: Floors, boundary: FreeBoundary | None, jacobian: float = -np.inf, quality: float = -np.inf
+) -> tuple[Floors, FreeBoundary | None]:
+    """Return to their corners, straight curves and flat patches the nodes that floors do not need elsewhere.
+
+    No least value falls below floors where it is above them, nor by more than half a `STEP_OF_LEAST`.
+    """
+    if boundary is None:
+        return floors, None
+    lowest = [value - STEP_OF_LEAST / 2 * abs(value) for value in (floors.values.jacobian, floors.values.quality)]
+    boundary, points = boundary.returned(floors.points, max(lowest[0], jacobian), max(lowest[1], quality))
+    energy = boundary.fitted.with_objective(floors.energy.norm, floors.energy.omitted)
+    return floors.continued(energy, points), boundary
 
 
-def _relax(floors: Floors, given: float) -> Generator[Step, None, None]:
-    """Improve the shape without a minimum scaled Jacobian that is lower, as far as it counts, or than as given."""
+def step_floor(least: float) -> float:
+    """Lowest minimum scaled Jacobian that counts as much as one above 0."""
+    return (1 - STEP_OF_LEAST) ** (counted_steps(least) + 1) * (1 + 1e-9)
+
+
+def _relax(floors: Floors, top: float, given: float) -> Generator[Step, None, None]:
+    """Improve the shape without a minimum scaled Jacobian lower than the top, as far as it counts, or than as given."""
     values = floors.values
     if values.jacobian > 0:
-        floor = (1 - STEP_OF_LEAST) ** (counted_steps(values.jacobian) + 1) * (1 + 1e-9)
-        floor = max(floor, _below(given))
+        floor = max(step_floor(top), _below(given))
         yield from floors.relax(min(floor, values.jacobian - 1e-9), _below(values.quality), everywhere=True)
 
 
@@ -145,11 +146,12 @@ def _balance(
         enough = max(shape.jacobian, jacobian)
     others = (first if start is given else floors.values_at(start) for start in starts[:-1])
     floors.values = max(shape, *others, key=lambda values: values.jacobian)
-    floors, boundary = yield from _raise(floors, boundary, max(quality, shape.quality), enough)
+    yield from floors.rise(max(quality, shape.quality), enough)
     again = sound and not (floors.values.jacobian >= jacobian and floors.values.quality >= quality)
     if again:
         floors.move_to(first.x)
-        yield from floors.rise(quality, enough, first_gap=_SMALL_GAP)
+        yield from floors.rise(quality, enough)
+    floors, boundary = _exact(floors, boundary, jacobian, quality)
     top = floors.values
     for kept, everywhere in KEPT_SHARES if energy.target is None else KEPT_SHARES[-1:]:
         floors.move_to(top.x)

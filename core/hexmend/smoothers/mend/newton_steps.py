@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,33 +26,15 @@ class NewtonConfig:
         How far a step may take a node, in mean lengths of the node's edges.
     deflated : bool
         Solve for translations of aggregates of nodes exactly: near an optimum a step moves large regions of a mesh.
-    loosest_definite, damping_decay : float or None, float
-        As of `TruncatedNewtonConfig`.
     """
 
-    solver_iterations: int = 200
+    solver_iterations: int = TruncatedNewtonConfig.iterations
     max_step: float = 1.5
     deflated: bool = False
-    loosest_definite: float | None = None
-    damping_decay: float = 4.0
 
     def direction(self) -> TruncatedNewton:
         """Make the direction for one sequence of steps; it adapts from step to step."""
-        config = TruncatedNewtonConfig(
-            self.solver_iterations,
-            loosest_definite=self.loosest_definite,
-            damping_decay=self.damping_decay,
-            deflated=self.deflated,
-        )
-        return TruncatedNewton(config)
-
-    def for_large_mesh(self) -> NewtonConfig:
-        """Return the settings for large meshes: their regions move by many edges without a change of their hexes.
-
-        Such a move is a long wave, which a damped matrix shortens, and a limit in edges too. Every step assembles a
-        matrix, so that fewer but more accurate steps cost less.
-        """
-        return replace(self, max_step=8.0, loosest_definite=0.03, damping_decay=16.0)
+        return TruncatedNewton(TruncatedNewtonConfig(self.solver_iterations, deflated=self.deflated))
 
     def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, direction: TruncatedNewton) -> Descent | None:
         """Take a step from x (n, 3), in mean edge lengths; None where the energy is infinite there."""

@@ -16,8 +16,8 @@ from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
 from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
-from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
-from hexmend.smoothers.mend.untangling import Untangled, UntanglingConfig, untangle
+from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, optimise_shape
+from hexmend.smoothers.mend.untangling import Untangled, untangle
 
 
 class ShapeStages:
@@ -44,7 +44,6 @@ class ShapeStages:
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
         start = yield from nested_start(mesh, energy, self.coarse_shape, self._harms, self._nested)
-        is_nested = start is not mesh.points or self._nested.is_of_coarse
         mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
@@ -58,8 +57,7 @@ class ShapeStages:
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
         newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
-        config = ShapeOptimumConfig(newton=newton, short_steps=self._nested.short_steps if is_nested else 0)
-        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, config)
+        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, newton)
         del mesh, start, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
 
@@ -74,15 +72,15 @@ class ShapeStages:
         return not self.settings.balances and (any if self.settings.guard else all)(fallen)
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
-        config = UntanglingConfig(self.settings.initial_epsilon, newton=NewtonConfig(self.settings.solver_iterations))
-        return (yield from untangle(mesh, energy.without_size(), locked, config))
+        settings, newton = self.settings, NewtonConfig(self.settings.solver_iterations)
+        return (yield from untangle(mesh, energy.without_size(), locked, settings.initial_epsilon, newton))
 
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Go from points (n, 3) on to the optimum of shape, without the corners that are inverted there."""
         inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         energy = energy.with_objective(energy.norm, inverted)
-        config = ShapeOptimumConfig(newton=NewtonConfig(self.settings.solver_iterations, deflated=True))
-        return (yield from optimise_shape(energy, points, self.settings.p_limit, True, config))
+        newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
+        return (yield from optimise_shape(energy, points, self.settings.p_limit, True, newton))
 
     def _sound(self, energy: MeshEnergy, points: np.ndarray) -> MeshEnergy:
         """Return an energy that floors are added to, without the corners that are inverted at points (n, 3)."""

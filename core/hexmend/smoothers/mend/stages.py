@@ -21,8 +21,9 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.certification import certify_hexes, curable_hexes
+from hexmend.smoothers.mend.floors import BARRIER_SAFE
 from hexmend.smoothers.mend.free_boundary import RETURN, FreeBoundary, tolerances_of
-from hexmend.smoothers.mend.goals import STEP_OF_LEAST, Reached, reach_goal
+from hexmend.smoothers.mend.goals import STEP_OF_LEAST, Reached, reach_goal, step_floor
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.messages import certified_message, freed_message
 from hexmend.smoothers.mend.shape_stages import ShapeStages
@@ -103,11 +104,13 @@ class Stages(ShapeStages):
         wider = settings.surface_tolerance == AUTO
         if not is_sound:
             locked = locked_corners(free.mesh, quality)
-            points, is_within = yield from free.untangle(points, locked, wider)
+            points, is_within = yield from free.untangle(points, locked, settings.initial_epsilon, wider)
             if not is_within:
                 return repeat(self._sound(free.fitted, points)), fixed._replace(points=points)
             free = free.allowing(points, everywhere=wider)
-        starts, energy = [points], free.fitted
+            around, points = free.returned(points, BARRIER_SAFE, 0.0)
+            energy = around.fitted
+        starts = [points]
         if is_sound:  # the shape improves faster along the surface itself
             width = max(tolerances.patches, 1e-9) * mesh.mean_edge_length
             energy = energy_of(sliding.mesh, settings.first_norm_on(mesh), sliding.with_band(width))
@@ -118,7 +121,12 @@ class Stages(ShapeStages):
         energy = self._sound(free.fitted, starts[-1])
         reached = yield from keeping(kept, hexes, reach_goal(settings, energy, starts, given, mean, free), is_lower)
         free = reached.boundary or free
-        snapped = free.snapped(reached.points, 1 - STEP_OF_LEAST)
+        quality = measure(reached.points, hexes)
+        least, least_q = float(quality.scaled_jacobian.min()), float(quality.q.min())
+        floor = step_floor(least) if least > 0 else least
+        snapped, _ = free.snapped(
+            reached.points, floor, least_q if settings.balances else (1 - STEP_OF_LEAST) * least_q
+        )
         yield from keeping(kept, hexes, _one(Step(snapped, intermediate=True)), is_lower)
         free = free.allowing(snapped, everywhere=True)
         fitted = (free.widened(factor).fitted for factor in (RETURN.wider if wider else repeat(1.0)))

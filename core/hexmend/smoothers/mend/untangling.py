@@ -1,8 +1,7 @@
 """First stage of mend: untangling by a barrier that hardens step by step (Wilson 5.2.2).
 
 Inverted hexes have a finite energy while delta > 0 (3.2). A falling epsilon gives delta^2 = epsilon (epsilon - worst),
-worst being the least determinant of the mesh. At each delta a few Newton steps of all nodes lower the energy; sweeps of
-local Newton steps then work around the hexes that are still inverted.
+worst being the least determinant of the mesh (Garanzha 2000); at each delta one Newton step lowers the energy.
 """
 
 from __future__ import annotations
@@ -12,56 +11,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
-from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 
-
-@dataclass(frozen=True)
-class UntanglingConfig:
-    """Settings of the stage.
-
-    Parameters
-    ----------
-    initial_epsilon, min_epsilon : float
-        The first epsilon, and the one at which the stage ends, in cubes of the mean edge length, or with a target in
-        the volumes that hexes are to have.
-    reduction : float
-        Factor from one epsilon to the next.
-    max_delta : float
-        In cubes of the mean edge length; beyond it the energy of a flat hex is that of a cube.
-    newton_steps : int
-        Most steps of all nodes at one delta: an accurate minimum is of no use while delta is large.
-    sweeps : int
-        Sweeps of local Newton steps at one delta.
-    few : float
-        Share of inverted hexes below which mainly local sweeps are used.
-    few_sweeps, few_period : int
-        Below that share: sweeps per delta; steps of all nodes only at each `few_period`-th delta without progress.
-    patience, faceted_patience : int
-        Number of successive deltas without progress after which the stage ends; the second on a faceted surface, where
-        the boundary that is free in space repairs what is left.
-    newton : NewtonConfig
-        Of the steps of all nodes.
-    """
-
-    initial_epsilon: float = 0.03
-    min_epsilon: float = 1e-9
-    reduction: float = 0.7
-    max_delta: float = 0.5
-    newton_steps: int = 3
-    sweeps: int = 10
-    few: float = 0.003
-    few_sweeps: int = 50
-    few_period: int = 3
-    patience: int = 14
-    faceted_patience: int = 7
-    newton: NewtonConfig = NEWTON
+#: Factor of epsilon from one step to the next with a boundary that is fixed: what a step can follow.
+REDUCTION = 0.9
+#: Greatest delta, in cubes of the mean edge length: beyond it the energy of a flat hex is that of a cube.
+MAX_DELTA = 0.5
+#: Successive steps without fewer inverted hexes after which the stage ends.
+PATIENCE = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +79,12 @@ class _Iterate:
 
 
 def untangle(
-    mesh: Mesh, energy: MeshEnergy, locked: np.ndarray, config: UntanglingConfig
+    mesh: Mesh,
+    energy: MeshEnergy,
+    locked: np.ndarray,
+    epsilon: float,
+    newton: NewtonConfig,
+    reduction: float = REDUCTION,
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
 
@@ -129,12 +96,16 @@ def untangle(
         Of this mesh, the locked corners omitted.
     locked : (m,) uint8
         Corners that fixed nodes lock in inversion.
-    config : UntanglingConfig
+    epsilon : float
+        The first one, in cubes of the mean edge length, or with a target in the volumes that hexes are to have.
+    newton : NewtonConfig
+    reduction : float
+        Factor of epsilon from one step to the next.
 
     Yields
     ------
     Step
-        After each step of all nodes and after the sweeps at each delta.
+        After each Newton step.
     """
     quality = measure(mesh.points, mesh.hexes)
     points = recentre_far_nodes(mesh, quality)
@@ -144,40 +115,17 @@ def untangle(
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     del points, quality  # large meshes have no memory for what is no longer needed
-    epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
-    patience = config.faceted_patience if energy.faceted else config.patience
-    while now.inverted and idle < patience and epsilon > config.min_epsilon:
-        worst = min(now.worst, 0.0)
-        delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
-        few = now.inverted < config.few * energy.n_hexes
-        if not few or idle % config.few_period == config.few_period - 1:
-            steps = _newton_steps(now, energy, locked, delta, config)
-            del now
-            now = yield from steps
-        if now.inverted:
-            sweeps = config.few_sweeps if few else config.sweeps
-            x = local_sweeps(energy, now.x, mask(now.where, mesh.n_hexes), locked, delta, sweeps)
-            now = _Iterate.at(x, energy, locked)
-            diagnostics = {"delta": delta, "sweeps": sweeps}
-            yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
-        idle = 0 if now.inverted < fewest else idle + 1
-        fewest = min(fewest, now.inverted)
-        epsilon *= config.reduction
-    return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.hexes, now.where) | locked)
-
-
-def _newton_steps(
-    now: _Iterate, energy: MeshEnergy, locked: np.ndarray, delta: float, config: UntanglingConfig
-) -> Generator[Step, None, _Iterate]:
-    """Step with all nodes at one delta until no hex is inverted or no step descends, `newton_steps` times at most."""
-    direction = config.newton.direction()
-    for _ in range(config.newton_steps):
-        descent = config.newton.step(energy, now.x, delta, direction)
-        if descent is None or descent.alpha == 0:
+    fewest, idle, direction = now.inverted, 0, newton.direction()
+    while now.inverted and idle < PATIENCE:
+        delta = min(MAX_DELTA, float(np.sqrt(epsilon * (epsilon - min(now.worst, 0.0)))))
+        descent = newton.step(energy, now.x, delta, direction)
+        if descent is None:
             break
+        del now
         now, diagnostics = _Iterate.at(descent.x, energy, locked), descent.diagnostics(delta)
         del descent
         yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
-        if not now.inverted:
-            break
-    return now
+        idle = 0 if now.inverted < fewest else idle + 1
+        fewest = min(fewest, now.inverted)
+        epsilon *= reduction
+    return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.hexes, now.where) | locked)

@@ -13,7 +13,6 @@ from hexmend.iteration import Outcome
 from hexmend.quality import corner_determinants, measure, summarise
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.inversion import locked_corners
 from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled
 
@@ -57,24 +56,6 @@ def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
     assert result.outcome is Outcome.CONVERGED
     assert result.after.q_min == pytest.approx(1, abs=1e-4)  # with a high p, cubes are where the energy is very flat
-
-
-def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out():
-    """A local energy would count the corners that the energy of all leaves out."""
-    mesh = with_locked_corner(make("five-side", size=300, scramble=1.5, seed=1))
-    locked = np.zeros(mesh.n_nodes, dtype=bool)
-    locked[mesh.hexes[locked_corners(mesh, measure(mesh.points, mesh.hexes)) != 0]] = True
-    assert (locked & mesh.free).any()
-    before, sweeps = mesh.points, 0
-    for step in Mend().steps(mesh):
-        if "sweeps" in step.diagnostics:
-            moved = (step.points != before).any(axis=1)
-            assert not moved[locked].any()
-            sweeps += moved.any()
-        before = step.points
-        if step.diagnostics.get("delta") == 0:
-            break
-    assert sweeps
 
 
 @given(

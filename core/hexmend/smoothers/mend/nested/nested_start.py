@@ -36,15 +36,12 @@ class NestedConfig:
         Free nodes from which on a start is looked for.
     coarsest : int
         Hexes of the coarsest mesh, at least.
-    short_steps : int
-        Of `ShapeOptimumConfig`, for coarse meshes and for what begins at them: most has been gained before.
     is_of_coarse : bool
         The mesh is a coarse one itself: the steps of coarser ones are not yielded.
     """
 
     free_nodes: int = 100_000
     coarsest: int = 500
-    short_steps: int = 6
     is_of_coarse: bool = False
 
     def of_coarse_mesh(self) -> NestedConfig:
