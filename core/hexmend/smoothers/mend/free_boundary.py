@@ -40,7 +40,7 @@ class ReturnConfig:
     ----------
     slopes : tuple of float
         Of the elastic ceilings while hexes are untangled, one after the other until they are.
-    reduction : float
+    reductions : (float, float)
         See `untangling.untangle`: a free boundary follows faster.
     greatest_slope : float
         Of the ceilings while the boundary returns.
@@ -53,7 +53,7 @@ class ReturnConfig:
     """
 
     slopes: tuple[float, ...] = (3.0, 10.0, 30.0, 100.0)
-    reduction: float = 0.8
+    reductions: tuple[float, float] = (0.8, 0.8)
     greatest_slope: float = 1000.0
     steps: int = 3
     rising: float = 0.05
@@ -232,7 +232,7 @@ class FreeBoundary:
         for slope in config.slopes:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
-            untangled = yield from off_surface(untangle(start, shape, locked, epsilon, NEWTON, config.reduction))
+            untangled = yield from off_surface(untangle(start, shape, locked, epsilon, NEWTON, config.reductions))
             if untangled.left(locked, energy):
                 continue
             x = energy.to_edge_units(untangled.points)

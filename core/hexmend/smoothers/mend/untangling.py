@@ -18,8 +18,9 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 
-#: Factor of epsilon from one step to the next with a boundary that is fixed: what a step can follow.
-REDUCTION = 0.9
+#: Factors of epsilon from one step to the next with a boundary that is fixed: what a step can follow, and one that is
+#: damped, and so shorter.
+REDUCTIONS = 0.9, 0.975
 #: Greatest delta, in cubes of the mean edge length: beyond it the energy of a flat hex is that of a cube.
 MAX_DELTA = 0.5
 #: Successive steps without fewer inverted hexes after which the stage ends.
@@ -84,7 +85,7 @@ def untangle(
     locked: np.ndarray,
     epsilon: float,
     newton: NewtonConfig,
-    reduction: float = REDUCTION,
+    reductions: tuple[float, float] = REDUCTIONS,
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
 
@@ -99,8 +100,8 @@ def untangle(
     epsilon : float
         The first one, in cubes of the mean edge length, or with a target in the volumes that hexes are to have.
     newton : NewtonConfig
-    reduction : float
-        Factor of epsilon from one step to the next.
+    reductions : (float, float)
+        Factors of epsilon after a step that is not damped, and after one that is.
 
     Yields
     ------
@@ -123,9 +124,9 @@ def untangle(
             break
         del now
         now, diagnostics = _Iterate.at(descent.x, energy, locked), descent.diagnostics(delta)
+        epsilon *= reductions[0] if descent.direction.shift == 0 else reductions[1]
         del descent
         yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         idle = 0 if now.inverted < fewest else idle + 1
         fewest = min(fewest, now.inverted)
-        epsilon *= reduction
     return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.hexes, now.where) | locked)
