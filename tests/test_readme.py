@@ -112,4 +112,4 @@ def test_figures_of_other_programs_are_those_of_the_measurements():
         mean, least = (goals[0].index(head) for head in ("q mean", "scaled Jacobian min"))
         assert other[least] == smoothing
         balanced = next(row for row in goals[start : start + 5] if row[1] == "balanced")
-        assert abs(float(balanced[mean]) - float(other[mean])) < 0.00101  # 0.001 in decimals
+        assert abs(float(balanced[mean]) - float(other[mean])) < 0.00201  # 0.002 in decimals
