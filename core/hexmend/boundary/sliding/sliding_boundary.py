@@ -22,9 +22,6 @@ from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 
-#: Cached properties that depend on which nodes slide.
-_OF_SLIDING_NODES = ("sliding_surface", "curved_nodes", "linear_mesh", "_flat", "rings")
-
 
 class SlidingBoundary(SlidingNodes):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
