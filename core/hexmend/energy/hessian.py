@@ -12,8 +12,8 @@ from hexmend.kernels import assembly, conjugate_gradients, threads
 from hexmend.kernels import objective as kernels
 
 if TYPE_CHECKING:
-    from hexmend.energy.floor_barrier import FloorBarrier
-    from hexmend.energy.height_barrier import HeightBarrier
+    from hexmend.energy.barriers.floor_barrier import FloorBarrier
+    from hexmend.energy.barriers.height_barrier import HeightBarrier
     from hexmend.energy.norm import ObjectiveNorm
     from hexmend.energy.ranks import Ranks
     from hexmend.energy.sparsity import BlockSparsity

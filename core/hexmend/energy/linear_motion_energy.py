@@ -9,8 +9,8 @@ import numpy as np
 from hexmend.arrays import as_immutable_owned, dot, index_of, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.energy.height_barrier import HeightBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned, dot, index_of
-from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.energy.height_barrier import HeightBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.norm import SQUARES, ObjectiveNorm

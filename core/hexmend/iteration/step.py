@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.quality import ElementQuality
+
+T = TypeVar("T")
 
 
 class Outcome(Enum):
@@ -95,3 +97,14 @@ class Step:
     norm: ObjectiveNorm | None = None
     surface: SurfaceObjective | None = None
     begins: bool = False
+
+
+def map_steps(steps: Generator[Step, None, T], change: Callable[[Step], Step | None]) -> Generator[Step, None, T]:
+    """Yield the steps of a stage as `change` returns them, without those that it drops; return the stage's result."""
+    while True:
+        try:
+            step = change(next(steps))
+        except StopIteration as end:
+            return end.value
+        if step is not None:
+            yield step

@@ -7,7 +7,7 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 from hexmend.boundary.classification import NodeClass
 from hexmend.energy import MeshEnergy, ObjectiveNorm
-from hexmend.energy.surface_fit import FitTolerances, SurfaceFit
+from hexmend.energy.barriers.surface_fit import FitTolerances, SurfaceFit
 from hexmend.mesh.mesh import Mesh
 
 TOLERANCE = 0.2

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
-from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from tests.core.grids import grid, scrambled

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.energy import ObjectiveNorm, SlidingEnergy
-from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import ObjectiveNorm
-from hexmend.energy.validity_barrier import ValidityBarrier
+from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.quality.validity import Validity, certify
 from tests.core.grids import grid, scrambled
 

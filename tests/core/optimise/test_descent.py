@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
-from hexmend.energy.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.kernels import step_limits
 from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.descent import DESCENT, descend, is_perfect, shorten_to_range

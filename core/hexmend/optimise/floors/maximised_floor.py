@@ -13,15 +13,13 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from hexmend.energy import Hessian, MeshEnergy
-from hexmend.energy.floor_barrier import FloorBarrier
-from hexmend.energy.height_barrier import HeightBarrier
+from hexmend.energy.barriers.floor_barrier import FloorBarrier
+from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton
 
 #: Most steps of Newton's method for t; its accuracy, relative to the reward.
 _STEPS, _ACCURACY = 60, 1e-10
-
-
 #: Floor that is never reached: heights are in units of the least.
 _HIGHEST = 8.0
 
@@ -42,8 +40,8 @@ class Reward:
     ----------
     reward : float
         K, for each unit of the floor.
-    gap : float
-        Distance of the floor from the least value, if one corner alone is near it: the barrier's weight is K gap.
+    weight : float
+        Of the barrier.
     band : float
         Width of the barrier.
     quality_floor : float
@@ -51,9 +49,14 @@ class Reward:
     """
 
     reward: float
-    gap: float
+    weight: float
     band: float
     quality_floor: float = -np.inf
+
+    @property
+    def gap(self) -> float:
+        """Distance of the floor from the least value, nearly, if one corner alone is near it."""
+        return self.weight / self.reward
 
 
 class MaximisedFloor:
@@ -82,8 +85,7 @@ class MaximisedFloor:
 
     def _barrier(self, t: float) -> FloorBarrier | HeightBarrier:
         reward = self._reward
-        weight = reward.reward * reward.gap
-        return self.hexes.barrier(t, reward.quality_floor, reward.band, reward.band, weight)
+        return self.hexes.barrier(t, reward.quality_floor, reward.band, reward.band, reward.weight)
 
     def _at(self, t: float) -> MeshEnergy:
         """Return the energy with the barrier of a floor."""
@@ -100,7 +102,7 @@ class MaximisedFloor:
 
     def _floor(self, x: np.ndarray) -> Floor:
         band, reward = self._reward.band, self._reward.reward
-        weight, ranks = reward * self._reward.gap, self._energy.ranks
+        weight, ranks = self._reward.weight, self._energy.ranks
         values = self.hexes.corners(x)
         least = ranks.least(float(values.min(initial=np.inf)))
         values = values[values < least + band]
@@ -138,9 +140,8 @@ class MaximisedFloor:
         """Compute the energy at positions x (n, 3) with the floor that minimises it."""
         floor, reward, rest = self.floor(x), self._reward, self._energy
         if reward.quality_floor > -np.inf:
-            weight = reward.reward * reward.gap
             rest = rest.with_barrier(
-                self.hexes.barrier(-np.inf, reward.quality_floor, reward.band, reward.band, weight)
+                self.hexes.barrier(-np.inf, reward.quality_floor, reward.band, reward.band, reward.weight)
             )
         value = rest.value(x, delta)
         # Positive for any floor below `_HIGHEST`: an energy that is not counts as perfect.

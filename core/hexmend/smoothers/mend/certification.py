@@ -9,8 +9,8 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
+from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.energy.terms import Term, Terms
-from hexmend.energy.validity_barrier import ValidityBarrier
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend

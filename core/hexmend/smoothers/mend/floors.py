@@ -13,8 +13,8 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
+from hexmend.energy.barriers.surface_fit import SurfaceFit
 from hexmend.energy.ranks import Ranks
-from hexmend.energy.surface_fit import SurfaceFit
 from hexmend.iteration import ActiveSet, Step
 from hexmend.optimise.descent import DESCENT, Descent, descend
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
@@ -41,7 +41,7 @@ class FloorsConfig:
     steps : int
         Most Newton steps of a round.
     centred : float
-        Slope, as a share of the barrier's weight, at which nodes are centred.
+        Fall of the functional in a step, as a share of the barrier's weight, below which nodes are centred.
     accuracy : float
         The least has risen as far as it goes where it changes by no more than this share of it, or of 0.1, in a round,
         and is as near the floor.
@@ -135,8 +135,7 @@ class Floors:
         """Find the corners that hold the floor down, by their multipliers: the shares of the reward."""
         config = self._config
         gap = config.accuracy * config.first_gap
-        reward = Reward(config.weight / gap, gap, config.band)
-        maximised = MaximisedFloor(self.energy, reward, self._hexes)
+        maximised = MaximisedFloor(self.energy, Reward(config.weight / gap, config.weight, config.band), self._hexes)
         hexes, nodes, shares = maximised.multipliers(self.values.x)
         heavy = np.flatnonzero(shares > config.active * shares.max(initial=0.0))
         heavy = heavy[np.argsort(-shares[heavy], kind="stable")]
@@ -159,11 +158,7 @@ class Floors:
         other.reward, other._touched = self.reward, self._touched
         return other
 
-    def rise(
-        self,
-        quality_floor: float = -np.inf,
-        enough: float = np.inf,
-    ) -> Generator[Step, None, None]:
+    def rise(self, quality_floor: float = -np.inf, enough: float = np.inf) -> Generator[Step, None, None]:
         """Raise the minimum scaled Jacobian above a floor of q(H), to which q(H) rises first where it is lower.
 
         It may be lower for some rounds; it ends where it was highest.
@@ -195,7 +190,8 @@ class Floors:
         config, least, t = self._config, self.values.jacobian, -np.inf
         for _ in range(config.rounds):
             gap = config.weight / self.reward
-            reward = Reward(self.reward, gap, config.band, min(quality_floor, self.values.quality - gap))
+            floor = min(quality_floor, self.values.quality - gap)
+            reward = Reward(self.reward, config.weight, config.band, floor)
             least_before, t_before, small = least, t, config.accuracy * max(least, 0.1)
             t, is_centred = self._centre(reward, enough)
             yield self._step(gap=gap)
@@ -218,10 +214,8 @@ class Floors:
         energy, hexes, region = self._around(near)
         x = values.x if region is None else region.inside(values.x)
         barrier = hexes.barrier(jacobian, quality, band, band, config.relax_weight)
-        above, direction = (
-            _fitted(energy, config.fit_share * config.relax_weight).with_barrier(barrier),
-            TruncatedNewton(),
-        )
+        above = _fitted(energy, config.fit_share * config.relax_weight).with_barrier(barrier)
+        direction = TruncatedNewton()
         for _ in range(config.steps):
             step = self._descend(above, x, direction)
             if step is None:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import copy
 from collections.abc import Generator
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned, mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.energy.surface_fit import NO_LIMIT, FitTolerances, SurfaceFit
-from hexmend.iteration import Step
+from hexmend.energy.barriers.surface_fit import NO_LIMIT, FitTolerances, SurfaceFit
+from hexmend.iteration import Step, map_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
@@ -23,8 +22,6 @@ from hexmend.quality import measure
 from hexmend.smoothers.mend.floors import BARRIER_SAFE, FLOORS
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 from hexmend.smoothers.mend.untangling import untangle
-
-T = TypeVar("T")
 
 #: Tolerance of patches without one that is given, and of what is to be exact, in mean edge lengths.
 AUTO_FIT, EXACT_FIT = 0.07, 0.01
@@ -72,7 +69,7 @@ def tolerances_of(tolerance: float | str, absolute: float, mesh: Mesh) -> FitTol
 class FreeBoundary:
     """The mesh of a sliding boundary whose nodes move in space, and the fit to the surface.
 
-    Nodes on flat patches, and those on straight curves that are to be exact, keep these exactly.
+    Nodes of corners, straight curves and flat patches keep these exactly, but for those that may leave them.
 
     Parameters
     ----------
@@ -136,7 +133,7 @@ class FreeBoundary:
     def _maximised(self, fit: SurfaceFit, omitted: np.ndarray) -> MaximisedFloor:
         """Return that energy with the least as an unknown, as where floors begin to rise."""
         energy = self._with(fit, omitted)
-        reward = Reward(FLOORS.weight / FLOORS.first_gap, FLOORS.first_gap, FLOORS.band)
+        reward = Reward(FLOORS.weight / FLOORS.first_gap, FLOORS.weight, FLOORS.band)
         return MaximisedFloor(energy, reward, MovableHexes(energy))
 
     @property
@@ -232,7 +229,8 @@ class FreeBoundary:
         for slope in config.slopes:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
-            untangled = yield from off_surface(untangle(start, shape, locked, epsilon, NEWTON, config.reductions))
+            steps = untangle(start, shape, locked, epsilon, NEWTON, config.reductions)
+            untangled = yield from map_steps(steps, lambda step: replace(step, infeasible=True))  # off the surface
             if untangled.left(locked, energy):
                 continue
             x = energy.to_edge_units(untangled.points)
@@ -269,13 +267,3 @@ class FreeBoundary:
             slope *= 1 if rises else 2
         sound = [found for least, found in best if least > BARRIER_SAFE]
         return next((found for found in (*sound, *(found for _, found in best)) if found is not None), None)
-
-
-def off_surface(steps: Generator[Step, None, T]) -> Generator[Step, None, T]:
-    """Yield steps as infeasible ones: the boundary is farther from its surface than it may be."""
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
-        yield replace(step, infeasible=True)

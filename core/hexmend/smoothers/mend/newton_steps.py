@@ -42,4 +42,3 @@ class NewtonConfig:
 
 
 NEWTON = NewtonConfig()
-DEFLATED_NEWTON = NewtonConfig(deflated=True)

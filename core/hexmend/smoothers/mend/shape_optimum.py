@@ -9,10 +9,10 @@ import numpy as np
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
-from hexmend.smoothers.mend.newton_steps import DEFLATED_NEWTON, NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 
 #: Fall of the objective in so many steps, as a share of it, below which they are the last: of a stage that another one
-#: follows, on a faceted surface, where steps go from facet to facet, and with one p before the next.
+#: follows, with one p before the next, and where steps are limited: on a faceted surface they go from facet to facet.
 NEGLIGIBLE_FALL, STEPS = 2e-3, 4
 #: Slope, as a share of the energy, up to which it counts as zero.
 ROUNDING = 1e-10
@@ -27,7 +27,7 @@ class ShapeOptimum:
 
 
 def optimise_shape(
-    energy: MeshEnergy, points: np.ndarray, max_p: float, intermediate: bool, newton: NewtonConfig = DEFLATED_NEWTON
+    energy: MeshEnergy, points: np.ndarray, max_p: float, intermediate: bool, newton: NewtonConfig
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy at delta = 0, then with p doubled again and again up to `max_p`.
 

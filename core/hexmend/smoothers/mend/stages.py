@@ -13,7 +13,7 @@ from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, energy_of
 from hexmend.energy.hex_energy import unpack_corners
-from hexmend.iteration import Outcome, Step
+from hexmend.iteration import Outcome, Step, map_steps
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import AUTO
@@ -127,7 +127,8 @@ class Stages(ShapeStages):
         snapped, _ = free.snapped(
             reached.points, floor, least_q if settings.balances else (1 - STEP_OF_LEAST) * least_q
         )
-        yield from keeping(kept, hexes, _one(Step(snapped, intermediate=True)), is_lower)
+        lower = kept is not None and is_lower(measure(snapped, hexes), kept)
+        yield Step(snapped, intermediate=True, infeasible=lower)
         free = free.allowing(snapped, everywhere=True)
         fitted = (free.widened(factor).fitted for factor in (RETURN.wider if wider else repeat(1.0)))
         return (self._sound(each, snapped) for each in fitted), reached._replace(points=snapped, boundary=free)
@@ -145,20 +146,15 @@ def _holding_overlaps(mesh: Mesh, points: np.ndarray, quality: ElementQuality) -
     return mesh.keeping_surface().with_points(points).with_fixed(fixed)
 
 
-def _one(step: Step) -> Generator[Step, None, None]:
-    yield step
-
-
 def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, None, T]:
     """Yield steps, as intermediate ones while hexes are invalid that can become valid: these are made so afterwards."""
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
+
+    def judged(step: Step) -> Step:
         quality = step.quality if step.quality is not None else measure(step.points, mesh.hexes)
         curable = not step.intermediate and curable_hexes(mesh, quality).any()
-        yield replace(step, quality=quality, intermediate=step.intermediate or bool(curable))
+        return replace(step, quality=quality, intermediate=step.intermediate or bool(curable))
+
+    return map_steps(steps, judged)
 
 
 def _is_lower(now: ElementQuality, kept: ElementQuality) -> bool:
@@ -180,11 +176,10 @@ def keeping(
 ) -> Generator[Step, None, T]:
     """Yield steps of a mesh with hexes (m, 8); a step is infeasible while a figure is below its kept value."""
     if kept is None:
-        return (yield from steps)
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
+        return steps
+
+    def judged(step: Step) -> Step:
         quality = step.quality if step.quality is not None else measure(step.points, hexes)
-        yield replace(step, quality=quality, infeasible=step.infeasible or is_lower(quality, kept))
+        return replace(step, quality=quality, infeasible=step.infeasible or is_lower(quality, kept))
+
+    return map_steps(steps, judged)

@@ -10,7 +10,7 @@ from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
 from tests.core.grids import grid, scrambled
 
-REWARD = Reward(100.0, 0.02, 0.2, 0.3)
+REWARD = Reward(100.0, 2.0, 0.2, 0.3)
 FINE = TruncatedNewtonConfig(2000, loosest=1e-10, tightest=1e-11)
 
 
@@ -24,7 +24,7 @@ def case():
 
 def with_floor(energy, t):
     """The energy with the barriers of a floor t."""
-    weight = REWARD.reward * REWARD.gap
+    weight = REWARD.weight
     return energy.with_barrier(MovableHexes(energy).barrier(t, REWARD.quality_floor, REWARD.band, REWARD.band, weight))
 
 
@@ -48,7 +48,7 @@ def test_the_floor_is_the_minimiser_and_the_value_is_there_up_to_a_constant(case
 def test_the_gap_is_that_of_the_reward_if_one_corner_alone_is_near(case):
     plain, _, x = case
     least, second = np.sort(MovableHexes(plain).corners(x))[:2]
-    reward = Reward(100.0, 1e-3 * (second - least), (second - least) / 2)
+    reward = Reward(100.0, 0.1 * (second - least), (second - least) / 2)
     floor = MaximisedFloor(plain, reward, MovableHexes(plain)).floor(x)
     assert least - floor.t == pytest.approx(reward.gap, rel=0.01)
 

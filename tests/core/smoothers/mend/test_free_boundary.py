@@ -6,7 +6,7 @@ import pytest
 from hexmend import smooth
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import ObjectiveNorm
-from hexmend.energy.surface_fit import FitTolerances
+from hexmend.energy.barriers.surface_fit import FitTolerances
 from hexmend.gallery import make
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend.free_boundary import FreeBoundary

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.energy import MeshEnergy
-from hexmend.iteration import Step
+from hexmend.iteration import Step, map_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.nested.coarse_problem import CoarseProblem, coarse_problem
@@ -94,20 +94,19 @@ def _coarse_optimum(
     problem: CoarseProblem, energy: MeshEnergy, optimise: Optimise, config: NestedConfig
 ) -> Generator[Step, None, np.ndarray]:
     """Go to the optimum of the coarse mesh, and return its points (c, 3); the steps describe the fine mesh."""
-    steps = optimise(problem.mesh, problem.energy)
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
-        if not config.is_of_coarse:
-            yield Step(
-                problem.by_positions(step.points),
-                {**step.diagnostics, "coarse_hexes": problem.mesh.n_hexes},
-                intermediate=True,
-                infeasible=energy.limits_moves,
-                norm=energy.norm,
-            )
+
+    def refined(step: Step) -> Step | None:
+        if config.is_of_coarse:
+            return None
+        return Step(
+            problem.by_positions(step.points),
+            {**step.diagnostics, "coarse_hexes": problem.mesh.n_hexes},
+            intermediate=True,
+            infeasible=energy.limits_moves,
+            norm=energy.norm,
+        )
+
+    return map_steps(optimise(problem.mesh, problem.energy), refined)
 
 
 def _path(mesh: Mesh, points: np.ndarray, energy: MeshEnergy, harms: Harms) -> Iterator[Step]:

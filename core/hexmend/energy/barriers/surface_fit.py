@@ -78,8 +78,7 @@ class Costs(NamedTuple):
 class SurfaceFit:
     """Distances of samples of a boundary from its surface, and of the surface from the boundary.
 
-    Samples with a node that moves in space count, those of flat patches and straight curves alone do not: their nodes
-    keep planes and lines exactly.
+    Samples with a node that moves in space count; others do not: their nodes keep planes, lines and places exactly.
 
     Parameters
     ----------

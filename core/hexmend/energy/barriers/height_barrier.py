@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.corner_heights import corner_heights, height_gradients
+from hexmend.energy.barriers.corner_heights import corner_heights, height_gradients
 from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
