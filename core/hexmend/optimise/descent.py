@@ -11,6 +11,7 @@ from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, TruncatedNewton, steepest_descent
 
@@ -21,35 +22,32 @@ class DescentConfig:
 
     Parameters
     ----------
-    max_coordinate : float
-        Largest coordinate of a step, in the mesh's own unit of length: squares of larger ones overflow.
-    searches : int
+    trials : int
         Line searches before no step is taken. After each of the first half the steps of infeasible nodes are halved,
-        later they are set to 0.
+        later they are set to 0. Also the number of times that steps are halved around hexes above their bound, at most.
     growth_factor, growth_summand : float
         Bound of a hex's energy after a step: a factor of the energy before, and a summand.
-    halvings : int
-        Number of times that steps are halved around hexes above that bound, at most.
     stay_below : float
         Share of its step from which on an infeasible node stays: it has come to the end of its band.
-    cube_rounding : float
-        Rounding errors by which the eta of a cube may differ from 0.
-    short, negligible : float
-        Step length below which a direction is damped more, unless its slope is no more than that share of the energy.
+    negligible : float
+        Slope, as a share of the energy, up to which a direction with a short step is not damped more.
     """
 
-    max_coordinate: float = 1e100
-    searches: int = 6
+    trials: int = 6
     growth_factor: float = 2.0
     growth_summand: float = 1.0
-    halvings: int = 8
     stay_below: float = 0.25
-    cube_rounding: float = 8
-    short: float = 1 / 64
     negligible: float = 1e-6
+
+    @property
+    def short(self) -> float:
+        """Step length that counts as short: the line search has halved it so many times."""
+        return 0.5**self.trials
 
 
 DESCENT = DescentConfig()
+#: Largest coordinate of a step, in the unit of length of the mesh: squares of larger ones overflow.
+LARGEST_COORDINATE = float(np.cbrt(np.finfo(float).max))
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,14 +153,14 @@ def _search(
 ) -> Descent:
     """Search along the direction of `start`, whose steps are shortened at nodes that they take where they may not."""
     found, slope = start.direction, start.slope
-    for trial in range(DESCENT.searches):
+    for trial in range(DESCENT.trials):
         line = _Line(energy, x, delta, found.vector)
         alpha, backtracks = search(line.value, start.value, slope)  # A.5
         moved = line.points(alpha)
         infeasible = energy.infeasible_nodes(x, moved)
         if infeasible is None:
             return replace(start, x=moved, slope=slope, alpha=alpha, backtracks=backtracks)
-        found.vector[infeasible[energy.nodes]] *= 0.5 if trial < DESCENT.searches // 2 else 0.0
+        found.vector[infeasible[energy.nodes]] *= 0.5 if trial < DESCENT.trials // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.vector, gradient), search.with_initial_step(alpha)
     return replace(start, slope=slope, backtracks=backtracks)
 
@@ -187,9 +185,8 @@ def _damped(
     None with a barrier for inverted hexes (delta > 0), with floors and where nodes slide: there other limits shorten
     the step, and steepest descent follows.
     """
-    if delta > 0 or energy.limits_moves or energy.barrier is not None or not isinstance(direction, TruncatedNewton):
-        return None
-    return direction.damped(gradient, hessian)
+    damped = getattr(direction, "damped", None)
+    return None if delta > 0 or damped is None else damped(gradient, hessian)
 
 
 class _Line:
@@ -232,8 +229,8 @@ def _limit(
 def shorten_to_range(step: np.ndarray, unit: float, ranks: Ranks = ONE_RANK) -> None:
     """Shorten a step (k, 3), changed, that would overflow; `unit` is its unit of length in units of the mesh."""
     size = ranks.greatest(float(max(step.max(initial=0.0), -step.min(initial=0.0))))
-    if size > DESCENT.max_coordinate / unit:
-        step *= DESCENT.max_coordinate / unit / size
+    if size > LARGEST_COORDINATE / unit:
+        step *= LARGEST_COORDINATE / unit / size
 
 
 def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
@@ -253,7 +250,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     limit *= DESCENT.growth_factor
     limit += DESCENT.growth_summand
     worsened, halved, moved, changed = np.zeros(len(hexes), dtype=bool), None, None, None
-    for trial in range(DESCENT.halvings):
+    for trial in range(DESCENT.trials):
         before = None if energy.has_parts and not energy.limits_moves else moved
         del moved  # large meshes have no memory for two
         moved = energy.moved(x, step)
@@ -280,7 +277,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
 
 def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Return True if every hex is a cube but for rounding: gradient and Hessian are noise then."""
-    eta = DESCENT.cube_rounding * np.finfo(float).eps
+    eta = len(CORNER_TETRAHEDRA) * np.finfo(float).eps  # of each corner
     # Softened, a hex may have less energy than a cube.
     highest = energy.norm.contribution(eta) if delta == 0 else eta**energy.norm.p
     count = energy.n_hexes if energy.surface is None else energy.n_hexes + energy.surface.total_weight

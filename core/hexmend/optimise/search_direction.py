@@ -14,6 +14,8 @@ from hexmend.optimise.linear_solvers import LinearSolver
 
 #: Share of the greatest eigenvalue to which lower ones are raised: a thousandth, by Algorithm A.4.
 LEAST_EIGENVALUE = 1e-3
+#: Share of the first gradient at which a solution is as good as rounding allows.
+_GRADIENT_FLOOR = float(np.sqrt(np.finfo(float).eps))
 
 
 @dataclass(frozen=True)
@@ -73,8 +75,6 @@ class TruncatedNewtonConfig:
         Most iterations of conjugate gradients.
     loosest, tightest : float
         Bounds of the tolerance, in (0, 1).
-    gradient_floor : float
-        Share of the first gradient at which a solution is as good as rounding allows.
     max_damping_increases : int
         Most increases of the damping in a step.
     damping_factor : float
@@ -89,7 +89,6 @@ class TruncatedNewtonConfig:
     iterations: int = 200
     loosest: float = 0.1
     tightest: float = 1e-3
-    gradient_floor: float = 1e-9
     max_damping_increases: int = 6
     damping_factor: float = 4.0
     min_damping: float = 0.002
@@ -101,7 +100,7 @@ class TruncatedNewton:
 
     The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
     1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
-    would fall below `gradient_floor` of the first. If the Hessian is not positive definite, its diagonal is increased
+    would fall below the square root of a rounding error of the first. If the Hessian is not positive definite, its diagonal is increased
     until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
 
     An object serves one sequence of steps: tolerance and damping follow from the step before.
@@ -214,7 +213,7 @@ class TruncatedNewton:
         loosest = self.config.loosest
         if length == 0:
             return loosest
-        goal = max(0.9 * (length / self._last) ** 2, self.config.gradient_floor * self._first / length)
+        goal = max(0.9 * (length / self._last) ** 2, _GRADIENT_FLOOR * self._first / length)
         self._last = length
         return float(np.clip(goal, self.config.tightest, loosest))
 

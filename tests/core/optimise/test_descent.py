@@ -85,9 +85,9 @@ def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction
     step = np.array([[longest, 0.5 * longest, 0.0], [0.0, -0.25 * longest, 1.0]])
     shortened = step.copy()
     shorten_to_range(shortened, unit)
-    assert np.abs(shortened).max() == pytest.approx(DESCENT.max_coordinate / unit)
+    assert np.abs(shortened).max() == pytest.approx(LARGEST_COORDINATE / unit)
     np.testing.assert_allclose(shortened / shortened[0, 0], step / longest, rtol=1e-12)
-    within = np.array([[-0.99, 0.5, 0.0]]) * DESCENT.max_coordinate / unit
+    within = np.array([[-0.99, 0.5, 0.0]]) * LARGEST_COORDINATE / unit
     again = within.copy()
     shorten_to_range(again, unit)
     np.testing.assert_array_equal(again, within)

@@ -229,12 +229,15 @@ class SurfaceFit:
 
     def result(self, x: np.ndarray) -> FitResult:
         """Compare at positions x (n, 3) of the nodes, which are not changed in place between calls."""
-        for known, result in self._results:
-            if known is x or np.array_equal(known, x):
-                return result
-        result = self._compare(x, self._rows)
-        self._results[:] = [(x, result), *self._results[:1]]
+        result = self._known_result(x)
+        if result is None:
+            result = self._compare(x, self._rows)
+            self._results[:] = [(x, result), *self._results[:1]]
         return result
+
+    def _known_result(self, x: np.ndarray) -> FitResult | None:
+        """Return the comparison at positions x (n, 3) if it is one of the last two."""
+        return next((result for known, result in self._results if known is x or np.array_equal(known, x)), None)
 
     def _compare(self, x: np.ndarray, rows: np.ndarray, refits: bool = True) -> FitResult:
         """Compare some rows (k,) int32 at positions x (n, 3), of the boundary alone without a refit of its trees.
@@ -292,13 +295,16 @@ class SurfaceFit:
     def beyond(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         """Mark nodes of samples that use most of what they have left, (n,) bool; None where none does.
 
-        Only a barrier limits them. Samples that move farther than that are compared again, those of the surface with
-        the tangent at their closest point alone.
+        Only a barrier limits them. Samples that may move farther than that are compared again, those of the surface
+        with the tangent at their closest point alone, unless all are compared there already.
         """
         if not self.weight:
             return None
-        before, count = self.result(x), len(self._nodes)
+        before = self.result(x)
         limit = before.distances + _USED * np.maximum(self.tolerances - before.distances, 0.0)
+        known = self._known_result(there)
+        if known is not None:
+            return self._marked(known.distances > limit, before)
         shift = np.zeros((self.n, 3))
         shift[slice(None) if self._part is None else self._part[0]] = there - x
         lengths = np.linalg.norm(shift, axis=1)
@@ -306,16 +312,19 @@ class SurfaceFit:
         rows = np.flatnonzero(most > limit).astype(np.int32)
         if not rows.size:
             return None
-        bad = self._compare(there, rows[rows < count], refits=False).distances > limit
-        rows = rows[rows >= count]
+        bad = np.zeros(len(limit), dtype=bool)
         moved = before.vectors[rows] + (before.weights[rows, :, None] * shift[before.nodes[rows]]).sum(axis=1)
         along = (moved * before.directions[rows]).sum(axis=1)
         across = np.sqrt(np.maximum((moved**2).sum(axis=1) - along**2, 0.0))
         bad[rows] = np.where(self._of_line[rows], across, np.abs(along)) > limit[rows]
+        return self._marked(bad, before)
+
+    def _marked(self, bad: np.ndarray, result: FitResult) -> np.ndarray | None:
+        """Mark the nodes of some samples (s + t,) bool; None where there is none."""
         if not bad.any():
             return None
         marks = np.zeros(self.n, dtype=bool)
-        marks[before.nodes[bad][before.weights[bad] > 0]] = True
+        marks[result.nodes[bad][result.weights[bad] > 0]] = True
         return self._of_part(marks)
 
     def _costs(self, d: np.ndarray) -> Costs:

@@ -18,8 +18,6 @@ from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton
 
-#: Most steps of Newton's method for t; its accuracy, relative to the reward.
-_STEPS, _ACCURACY = 60, 1e-10
 #: Floor that is never reached: heights are in units of the least.
 _HIGHEST = 8.0
 
@@ -118,14 +116,14 @@ class MaximisedFloor:
 
         low, high = least - band * (1 - 1e-9), least - 1e-12
         t = max(low, least - self._reward.gap)
-        for _ in range(_STEPS):
-            _, slope, curvature = terms(t)
-            if abs(slope) < _ACCURACY * reward:
-                break
+        value, slope, curvature = terms(t)
+        while low < t < high and slope != 0:  # Newton's method, or bisection, until the next number is the same
             low, high = (low, t) if slope > 0 else (t, high)
             newton = t - slope / max(curvature, 1e-300)
+            if newton == t:
+                break
             t = newton if low < newton < high else (low + high) / 2
-        value, _, curvature = terms(t)
+            value, slope, curvature = terms(t)
         return Floor(t, value, curvature)
 
     def multipliers(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -168,7 +166,9 @@ class MaximisedFloor:
     def mixed(self, x: np.ndarray) -> np.ndarray:
         """Derivative of the gradient at positions x (n, 3) by the floor, (k, 3)."""
         t, h = self.floor(x).t, min(1e-4 * self._reward.gap, 1e-5)
-        return (self._at(t + h).gradient(x) - self._at(t - h).gradient(x)) / (2 * h)
+        energy = self._energy.with_surface(None)  # which does not depend on the floor
+        high, low = (energy.with_barrier(self._barrier(each)).gradient(x) for each in (t + h, t - h))
+        return (high - low) / (2 * h)
 
 
 class FloorDirection:
@@ -178,10 +178,20 @@ class FloorDirection:
         self._energy, self._newton = energy, newton or TruncatedNewton()
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-        energy, ranks = self._energy, hessian.energy.ranks
+        energy = self._energy
         # First, as the matrix lends its memory to gradients afterwards.
         mixed, curvature = energy.mixed(hessian.x), energy.floor(hessian.x).curvature
-        found = self._newton(value, gradient, hessian)
+        return self._corrected(self._newton(value, gradient, hessian), gradient, hessian, mixed, curvature)
+
+    def damped(self, gradient: np.ndarray, hessian: Hessian) -> SearchDirection | None:
+        """Return the direction at the same points with more damping; see `TruncatedNewton.damped`."""
+        energy = self._energy
+        mixed, curvature = energy.mixed(hessian.x), energy.floor(hessian.x).curvature
+        found = self._newton.damped(gradient, hessian)
+        return None if found is None else self._corrected(found, gradient, hessian, mixed, curvature)
+
+    def _corrected(self, found, gradient, hessian, mixed, curvature):
+        ranks = hessian.energy.ranks
         other, iterations, is_definite = self._newton.solve_again(mixed)
         rest = curvature - ranks.sum(float((mixed * other).sum()))
         vector = found.vector

@@ -45,18 +45,12 @@ class FloorsConfig:
     accuracy : float
         The least has risen as far as it goes where it changes by no more than this share of it, or of 0.1, in a round,
         and is as near the floor.
-    rounds : int
-        Most rounds.
     rings : int
         Layers of hexes around those near the floors whose nodes move.
-    active : float
-        Share of the greatest multiplier from which on a corner counts as active.
     fit_share : float
         Weight of the fit as a share of that of the barrier.
     relax_weight : float
         Of the barriers while the shape improves above floors.
-    relaxed : float
-        Slope, as a share of the energy, at which the shape is relaxed.
     """
 
     weight: float = 7.0
@@ -66,12 +60,9 @@ class FloorsConfig:
     steps: int = 12
     centred: float = 0.1
     accuracy: float = 5e-3
-    rounds: int = 60
     rings: int = 2
-    active: float = 0.1
     fit_share: float = 0.05
     relax_weight: float = 0.1
-    relaxed: float = 1e-4
 
 
 FLOORS = FloorsConfig()
@@ -137,7 +128,7 @@ class Floors:
         gap = config.accuracy * config.first_gap
         maximised = MaximisedFloor(self.energy, Reward(config.weight / gap, config.weight, config.band), self._hexes)
         hexes, nodes, shares = maximised.multipliers(self.values.x)
-        heavy = np.flatnonzero(shares > config.active * shares.max(initial=0.0))
+        heavy = np.flatnonzero(shares * shares.size > shares.sum())  # more than the mean
         heavy = heavy[np.argsort(-shares[heavy], kind="stable")]
         return ActiveSet(hexes[heavy], nodes[heavy], self._hexes.locked_below(self.values.x, self.values.jacobian))
 
@@ -188,7 +179,7 @@ class Floors:
     def _rounds(self, quality_floor: float, enough: float) -> Iterator[Step]:
         """Centre the nodes with one reward after the other; see `rise`."""
         config, least, t = self._config, self.values.jacobian, -np.inf
-        for _ in range(config.rounds):
+        while True:
             gap = config.weight / self.reward
             floor = min(quality_floor, self.values.quality - gap)
             reward = Reward(self.reward, config.weight, config.band, floor)
@@ -221,7 +212,7 @@ class Floors:
             if step is None:
                 break
             x = step.x
-            if -step.slope < config.relaxed * step.value:
+            if -step.slope < config.centred * config.relax_weight:
                 break
         self._take(region, hexes, x)
         yield self._step()
@@ -242,7 +233,7 @@ class Floors:
         for _ in range(config.steps):
             step = self._descend(maximised.as_energy, x, direction)
             fall = 0.0 if step is None else step.value - maximised.value(step.x)
-            is_centred = fall < config.centred * config.weight
+            is_centred = fall < config.centred * config.weight and (step is None or step.backtracks == 0)
             x = x if step is None else step.x
             if is_centred:
                 break

@@ -16,8 +16,6 @@ from hexmend.smoothers.mend.free_boundary import FreeBoundary
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import balance_message, limit_message
 
-#: Minimum scaled Jacobian from which on the goal balanced has nothing to gain.
-SOUND = 0.99
 #: Shares of the highest minimum scaled Jacobian tried as its floor, first around what rose and then everywhere, until
 #: the mean of q(H) is no lower than as given.
 KEPT_SHARES = ((0.96, False), (0.96, True), (0.85, True), (0.6, True), (0.0, True))
@@ -25,6 +23,8 @@ KEPT_SHARES = ((0.96, False), (0.96, True), (0.85, True), (0.6, True), (0.0, Tru
 TARGET_FALL = 0.05
 #: Least values count in steps of this share in the choice of the best iterate: the shape improves within one.
 STEP_OF_LEAST = FLOORS.accuracy
+#: Minimum scaled Jacobian from which on the goal balanced has nothing to gain.
+SOUND = 1 - 2 * STEP_OF_LEAST
 
 
 class Reached(NamedTuple):

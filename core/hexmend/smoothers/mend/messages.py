@@ -13,8 +13,6 @@ from hexmend.quality.file_ids import hex_ids, with_ids
 from hexmend.smoothers.mend.floors import Floors, Values
 from hexmend.terminal_text import count_phrase
 
-#: Fall of the mean of q(H) from which on a message speaks of it.
-_COSTS = 1e-3
 
 
 def omission_message(by_fixed: int, others: int) -> str:
@@ -107,9 +105,10 @@ def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.n
     )
     if 0 < fixed < kept.jacobian - 5e-5:
         message += f" A corner that cannot be moved has {fixed:.4f}."
-    if without - mean < _COSTS:
+    cost = f"{without - mean:.4f}"
+    if not float(cost) > 0:
         return message
-    return f"{message} Both together cost {without - mean:.4f} of q mean, which would be {without:.4f} without."
+    return f"{message} Both together cost {cost} of q mean, which would be {without:.4f} without."
 
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:

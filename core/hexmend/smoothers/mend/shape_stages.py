@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, measure
+from hexmend.quality import measure
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
@@ -43,7 +43,7 @@ class ShapeStages:
         """Untangle a mesh, then go to the optimum of shape; a refined mesh starts from its coarse mesh's optimum."""
         locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
         energy = energy.with_objective(energy.norm, locked)
-        start = yield from nested_start(mesh, energy, self.coarse_shape, self._harms, self._nested)
+        start = yield from nested_start(mesh, energy, self.coarse_shape, self._nested)
         mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
@@ -65,11 +65,6 @@ class ShapeStages:
         """Go to the optimum of shape of the coarse mesh behind a refinement, with the first p."""
         stages = ShapeStages(replace(self.settings, max_p=1.0), self._nested.of_coarse_mesh())
         return (yield from stages._shape(mesh, energy, True)).points
-
-    def _harms(self, given: ElementQuality, start: ElementQuality) -> bool:
-        """Return True if a start lowers figures that the run guards, as in `Mend.rank_on`; floors raise them again."""
-        fallen = start.q.min() < given.q.min(), start.scaled_jacobian.min() < given.scaled_jacobian.min()
-        return not self.settings.balances and (any if self.settings.guard else all)(fallen)
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
         settings, newton = self.settings, NewtonConfig(self.settings.solver_iterations)

@@ -12,8 +12,8 @@ from hexmend.iteration import ActiveSet, Step
 from hexmend.optimise.floors.movable_hexes import MovableHeights
 from hexmend.smoothers.mend.floors import Floors
 
-#: Factor of the rise from which on the stage begins again with a larger unit, and how often at most.
-_NEW_UNIT, _UNITS = 2.0, 20
+#: Factor of the rise from which on the stage begins again with a larger unit.
+_NEW_UNIT = 2.0
 
 
 def raise_time_step(
@@ -30,7 +30,7 @@ def raise_time_step(
     """
     unit = Floors(energy, points, partial(MovableHeights, unit=1.0)).values.jacobian
     unit = unit if 0 < unit < np.inf else 1.0
-    for _ in range(_UNITS):
+    while True:
         floors = Floors(energy, points, partial(MovableHeights, unit=unit))
         yield from floors.rise(enough=_NEW_UNIT)
         points, least = floors.points, floors.values.jacobian * unit

@@ -12,7 +12,7 @@ from hexmend.smoothers.mend.mend import Mend
 from hexmend.smoothers.mend.nested.nested_start import NestedConfig
 from tests.core.refined_meshes import refined, renumbered
 
-FORCED = NestedConfig(free_nodes=1, coarsest=1)
+FORCED = NestedConfig(free_nodes=1)
 NEVER = NestedConfig(free_nodes=10**9)
 
 

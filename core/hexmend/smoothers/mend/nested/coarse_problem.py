@@ -70,7 +70,7 @@ class CoarseProblem:
         return self.fine.mesh.constrained(points)
 
 
-def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarseProblem | None:
+def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
     """Recognise the coarse mesh of a uniform refinement, with its energy.
 
     None for other meshes, and for what a coarse mesh cannot have: a target of hexes, nodes that are tied to others, and
@@ -81,12 +81,10 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarsePr
     mesh : Mesh
     energy : MeshEnergy
         Of the mesh.
-    least_hexes : int
-        Of a coarse mesh that is worth while.
     """
     motion = energy.mesh.linear_motion
     tied = motion is not None and motion.tied.size > 0
-    if energy.ranks is not ONE_RANK or mesh.element_target is not None or tied or mesh.n_hexes < 8 * least_hexes:
+    if energy.ranks is not ONE_RANK or mesh.element_target is not None or tied:
         return None
     refinement = find_refinement(mesh.topology)
     if refinement is None:

@@ -6,7 +6,7 @@ far. On the coarse mesh the same way is half as many edges, and a step costs an 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -15,15 +15,11 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step, map_steps
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, measure
+from hexmend.quality import measure
 from hexmend.smoothers.mend.nested.coarse_problem import CoarseProblem, coarse_problem
 
-#: Shares of the way from the given points to a start that lowers guarded figures, at which these may be no lower.
-SHARES = 0.25, 0.5, 0.75
 #: Function that goes to the optimum of shape of a mesh with an energy; returns the points (n, 3).
 Optimise: TypeAlias = Callable[[Mesh, MeshEnergy], Generator[Step, None, np.ndarray]]
-#: Function of the quality of the given mesh and of a start: True if the latter lowers figures that a run guards.
-Harms: TypeAlias = Callable[[ElementQuality, ElementQuality], bool]
 
 
 @dataclass(frozen=True)
@@ -34,14 +30,11 @@ class NestedConfig:
     ----------
     free_nodes : int
         Free nodes from which on a start is looked for.
-    coarsest : int
-        Hexes of the coarsest mesh, at least.
     is_of_coarse : bool
         The mesh is a coarse one itself: the steps of coarser ones are not yielded.
     """
 
     free_nodes: int = 100_000
-    coarsest: int = 500
     is_of_coarse: bool = False
 
     def of_coarse_mesh(self) -> NestedConfig:
@@ -53,7 +46,7 @@ NESTED = NestedConfig()
 
 
 def nested_start(
-    mesh: Mesh, energy: MeshEnergy, optimise: Optimise, harms: Harms, config: NestedConfig = NESTED
+    mesh: Mesh, energy: MeshEnergy, optimise: Optimise, config: NestedConfig = NESTED
 ) -> Generator[Step, None, np.ndarray]:
     """Find the start of the optimum of shape: the given points, or the refined optimum of the coarse mesh.
 
@@ -64,8 +57,6 @@ def nested_start(
         Of the mesh, without the corners that are locked.
     optimise : callable
         For the coarse mesh.
-    harms : callable
-        Tells whether steps between the given mesh and the start are yielded too: one may be what a run keeps.
     config : NestedConfig
 
     Yields
@@ -80,13 +71,13 @@ def nested_start(
     """
     if energy.nodes.size < config.free_nodes:
         return mesh.points
-    problem = coarse_problem(mesh, energy, config.coarsest)
+    problem = coarse_problem(mesh, energy)
     if problem is None:
         return mesh.points
     coarse = yield from _coarse_optimum(problem, energy, optimise, config)
     points = _best(problem, mesh, energy, coarse)
     if not config.is_of_coarse:
-        yield from _path(mesh, points, energy, harms)
+        yield Step(points, intermediate=True, norm=energy.norm)
     return points
 
 
@@ -107,16 +98,6 @@ def _coarse_optimum(
         )
 
     return map_steps(optimise(problem.mesh, problem.energy), refined)
-
-
-def _path(mesh: Mesh, points: np.ndarray, energy: MeshEnergy, harms: Harms) -> Iterator[Step]:
-    """Yield a step to a start, points (n, 3); before it steps on the way there, if it lowers guarded figures."""
-    given, quality = mesh.points, measure(points, mesh.hexes)
-    if not energy.limits_moves and harms(measure(given, mesh.hexes), quality):
-        for share in SHARES:
-            between = energy.to_mesh_units((given + share * (points - given)) / energy.unit)
-            yield Step(between, intermediate=True, norm=energy.norm)
-    yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
 
 
 def _best(problem: CoarseProblem, mesh: Mesh, energy: MeshEnergy, coarse: np.ndarray) -> np.ndarray:
