@@ -65,7 +65,9 @@ class AbaqusCoordinates:
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
                 new_rows.setdefault(line, rows)
         given = np.concatenate(list(self._rows.values()))
-        fields = _joined([self._fields[line] for line in self._rows])
+        parts = [self._fields[line] for line in self._rows]
+        arrays = ([getattr(part, name) for part in parts] for name in ("begin", "end", "absent"))
+        fields = TextFields(*map(np.concatenate, arrays))
         coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH, self._parsed)
         points = np.concatenate([new_rows[line] for line in self._rows])
         if not self._deck.pieces:
@@ -111,7 +113,7 @@ def node_fields(data: bytes, begin: int, end: int) -> TextFields:
     letters = np.frombuffer(data, np.uint8, end - begin, begin)
     if not (letters > ord(" ")).any():
         none = np.zeros((0, 3), np.int64)
-        return TextFields(none, none, none, none.astype(bool), True)
+        return TextFields(none, none, none.astype(bool))
     breaks, commas = np.flatnonzero(letters == ord("\n")), np.flatnonzero(letters == ord(","))
     start, stop = np.append(0, breaks + 1), np.append(breaks, len(letters))
     start, stop = start[start < len(letters)], stop[start < len(letters)]
@@ -130,12 +132,7 @@ def node_fields(data: bytes, begin: int, end: int) -> TextFields:
     begins, ends = _trimmed(letters, low, np.maximum(low, high))
     blank = begins == ends
     begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
-    inner = ~absent[:, :2] & (count[:, None] > np.arange(1, 3))
-    widths = (high - low)[:, :2][inner]
-    aligned = len(start) > 1 and not absent.any() and widths.size > 0 and bool((widths == widths[0]).all())
-    aligned &= not (letters == ord("\t")).any()
-    space = begins - low if aligned else np.zeros_like(low)  # else the blanks stay, which may be tabs
-    return TextFields(begins + begin, ends + begin, space, absent, aligned)
+    return TextFields(begins + begin, ends + begin, absent)
 
 
 def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -146,10 +143,3 @@ def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[n
     while (blank := (begin < end) & (letters[end - 1] <= ord(" "))).any():
         end -= blank
     return begin, end
-
-
-def _joined(parts: list[TextFields]) -> TextFields:
-    """Fields of several cards, one after the other."""
-    names = ("begin", "end", "space", "absent")
-    arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in names]
-    return TextFields(*arrays, aligned=all(part.aligned for part in parts))

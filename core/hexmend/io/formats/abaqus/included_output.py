@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits, write_edited
+from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck, DeckFile, Reference
@@ -79,34 +79,30 @@ def _references(file: DeckFile, renamed: dict[DeckFile, str]) -> list[tuple[Refe
 
 def _none() -> Edits:
     nothing = np.zeros(0, np.int64)
-    return Edits(nothing, nothing, nothing, b"")
+    return Edits(nothing, nothing, [])
 
 
 def _write(path: Path, file: DeckFile, edits: Edits) -> None:
     with open(path, "wb") as out:
-        write_edited(out, file.data, edits)
+        out.writelines(edited(file.data, edits))
 
 
 def _of_file(deck: Deck, edits: Edits, file: DeckFile) -> Edits:
     """Edits of the joined text that lie in a file, with its offsets."""
-    lines, parts = edits.texts.split(b"\n"), []
+    parts = []
     for piece in deck.pieces:
         if piece.file is file:
             low, high = np.searchsorted(edits.begin, [piece.begin, piece.begin + piece.length])
             high += int(np.searchsorted(edits.begin[high:], piece.begin + piece.length, "right"))  # at its end
             shift = piece.file_begin - piece.begin
-            texts = b"".join(line + b"\n" for line in lines[low:high])
-            part = slice(low, high)
-            parts.append(Edits(edits.begin[part] + shift, edits.end[part] + shift, edits.padding[part], texts))
+            parts.append(Edits(edits.begin[low:high] + shift, edits.end[low:high] + shift, edits.texts[low:high]))
     return _merged(parts)
 
 
 def _merged(parts: list[Edits]) -> Edits:
     """Edits of several parts of a file, in the order of the file."""
-    arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end", "padding")]
-    lines = b"".join(part.texts for part in parts).split(b"\n")
-    order = np.argsort(arrays[0], kind="stable")
-    return Edits(*(values[order] for values in arrays), b"".join(lines[k] + b"\n" for k in order.tolist()))
+    begin, end = (np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end"))
+    return Edits(begin, end, [text for part in parts for text in part.texts]).in_order()
 
 
 def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
@@ -114,8 +110,8 @@ def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
     parts = [edits]
     for reference, name in names:
         quote = b'"' if reference.parent.data[reference.begin : reference.begin + 1] == b'"' else b""
-        place = np.array([reference.begin]), np.array([reference.end]), np.zeros(1, np.int64)
-        parts.append(Edits(*place, quote + name.encode() + quote + b"\n"))
+        place = np.array([reference.begin]), np.array([reference.end])
+        parts.append(Edits(*place, [quote + name.encode() + quote]))
     return _merged(parts)
 
 
