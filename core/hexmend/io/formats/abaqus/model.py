@@ -12,11 +12,10 @@ import numpy as np
 
 from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.abaqus.deck import Card, Deck
 
-#: Members that all sets may have for each byte of the file, and members that are never too many.
-_MEMBERS_PER_BYTE, _ALWAYS_ALLOWED = 20, 1_000_000
 #: Levels of sets that are members of sets.
 _MAX_DEPTH = 100
 
@@ -72,19 +71,6 @@ def merged_sets(first: dict[str, SetDefinition], second: dict[str, SetDefinition
     return first | {key: first[key].merged(more) if key in first else more for key, more in second.items()}
 
 
-class MemberBudget:
-    """Limit on the members of all sets together, so that a small file cannot fill the memory."""
-
-    def __init__(self, deck: Deck):
-        self.deck, self.left = deck, _ALWAYS_ALLOWED + _MEMBERS_PER_BYTE * len(deck.data)
-
-    def spend(self, members: int) -> None:
-        """Count members; raise `FileError` above the limit."""
-        self.left -= members
-        if self.left < 0:
-            raise self.deck.error("its sets have far more members than a file of its size can define")
-
-
 class SetLookup:
     """Members of the sets of one instance, or of the assembly, as positions among all nodes or elements.
 
@@ -97,7 +83,7 @@ class SetLookup:
         By key.
     first : int
         Position of the first of `ids`.
-    budget : MemberBudget
+    budget : MemoryBudget
     instances : mapping of str to SetLookup, optional
         Lookups of the instances that sets of the assembly may name, by key.
 
@@ -113,7 +99,7 @@ class SetLookup:
         ids: np.ndarray,
         sets: dict[str, SetDefinition],
         first: int,
-        budget: MemberBudget,
+        budget: MemoryBudget,
         instances: Mapping[str, SetLookup] | None = None,
     ):
         self.deck, self.sets, self.budget, self.instances = deck, sets, budget, instances or {}
@@ -149,17 +135,17 @@ class SetLookup:
         for first, last, step in dict.fromkeys(definition.ranges):
             begin, end = np.searchsorted(self.ids, [first, last + 1])
             found.append(self.order[begin:end][(self.ids[begin:end] - first) % step == 0])
-            self.budget.spend(len(found[-1]))
+            self.budget.charge(found[-1].nbytes, "its sets")
         for entry in dict.fromkeys(definition.entries):
             if not is_number(entry):
                 found.append(self.resolve(entry, parents))
-                self.budget.spend(len(found[-1]))
+                self.budget.charge(found[-1].nbytes, "its sets")
         for instance, lines in definition.by_instance.items():
             if instance not in self.instances:
                 raise self.deck.error(f"a set refers to the instance {quoted(instance)}, which does not exist")
             found.append(self.instances[instance]._evaluate(lines))
         positions = np.unique(np.concatenate(found))
-        self.budget.spend(len(positions))
+        self.budget.charge(positions.nbytes, "its sets")
         return positions
 
     def _positions(self, numbers: np.ndarray) -> np.ndarray:
