@@ -8,6 +8,7 @@ Meshes whose boundary slides on the surface of a file.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,21 @@ from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
+from hexmend.io.surfaces import obj, ply, stl, vtk
+from hexmend.io.surfaces.format import Polygons
 from hexmend.kernels import closest_point
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.close_pairs import close_pairs
 from hexmend.mesh.topology.components import components
 
+#: Title of each format, and its reader, by suffix.
+SURFACE_FORMATS: dict[str, tuple[str, Callable[[Path], Polygons]]] = {
+    ".stl": ("STL", stl.read),
+    ".obj": ("OBJ", obj.read),
+    ".ply": ("PLY", ply.read),
+    ".vtp": ("VTP", vtk.read),
+    ".vtk": ("VTK legacy", vtk.read_legacy),
+}
 #: Points at a smaller distance, relative to the diagonal of the bounding box, are merged.
 _MERGE_TOLERANCE = 1e-9
 
@@ -83,13 +93,13 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     """
     path = Path(path)
     check_readable(path, "a file of a surface")
-    format = next((known for known in SURFACE_FORMATS.values() if path.suffix.lower() in known.suffixes), None)
-    if format is None:
-        titles = [f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes]
+    _, read = SURFACE_FORMATS.get(path.suffix.lower(), ("", None))
+    if read is None:
+        titles = [f"{suffix} ({title})" for suffix, (title, _) in SURFACE_FORMATS.items()]
         remedy = f"Hexmend reads {', '.join(titles)}."
         raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", remedy)
     with reading(path, "Choose a coarser surface."):
-        polygons = format.read(path)
+        polygons = read(path)
     return _to_surface(path, polygons)
 
 

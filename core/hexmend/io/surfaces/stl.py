@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import parse_numbers
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, register
+from hexmend.io.surfaces.format import Polygons, parse_surface
 
 #: Bytes before the triangles of a binary file.
 _HEADER = 84
@@ -49,6 +49,3 @@ def _polygons(corners: np.ndarray) -> Polygons:
     """Make separate triangles of corners, (3 k, 3) or (k, 3, 3)."""
     points = corners.reshape(-1, 3).astype(np.float64)
     return Polygons(points, [np.arange(len(points)).reshape(-1, 3)])
-
-
-register(SurfaceFormat(name="stl", title="STL", suffixes=(".stl",), read=read))
