@@ -60,7 +60,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     if unread:
         notes.append(unread_note(f"{sum(unread.values()):,} elements of other types ({some_names(sorted(unread))})"))
 
-    budget = MemoryBudget(deck.path, len(deck.data))
+    budget = MemoryBudget(deck.path, deck.size)
     of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget)
     of_elements = _lookups(deck, instances, elements.ids, "element_sets", budget)
     node_sets = _sets(instances, of_nodes, several)

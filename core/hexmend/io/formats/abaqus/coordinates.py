@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
+from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields, parse_fields
 from hexmend.io.formats.abaqus.deck import Card, Deck
@@ -40,46 +41,47 @@ class AbaqusCoordinates:
 
     def __init__(self, deck: Deck, instances: list[Instance]):
         self._deck, self._instances = deck, instances
-        self._rows: dict[int, np.ndarray] = {}  # by the line of the card
-        self._fields: dict[int, TextFields] = {}
-        self._parsed = True
+        self._rows: dict[Card, np.ndarray] = {}
+        self._fields: dict[Card, TextFields] = {}
+        self._unparsed: set[Card] = set()
         for instance in instances:
             for card in instance.part.node_cards:
-                if card.line not in self._rows:
-                    self._rows[card.line] = self._parse(card)
-                instance.part.points.append(self._rows[card.line])
+                if card not in self._rows:
+                    self._rows[card] = self._parse(card)
+                instance.part.points.append(self._rows[card])
         self.points = np.concatenate([instance.points() for instance in instances])
 
     def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the deck and its files with new coordinates; see `LocatedFiles.write_files`."""
-        file = files.add(target)
-        new_rows: dict[int, np.ndarray] = {}
+        new_rows: dict[Card, np.ndarray] = {}
         first = 0
         for instance in self._instances:
-            for line in (card.line for card in instance.part.node_cards):
-                own = slice(first, first + len(self._rows[line]))
+            for card in instance.part.node_cards:
+                own = slice(first, first + len(self._rows[card]))
                 first = own.stop
-                rows = _in_part(instance, self.points[own], points[own], self._rows[line])
-                if line in new_rows and not _same(new_rows[line], rows):
+                rows = _in_part(instance, self.points[own], points[own], self._rows[card])
+                if card in new_rows and not _same(new_rows[card], rows):
                     name = quoted(instance.part.name)
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
-                new_rows.setdefault(line, rows)
-        given = np.concatenate(list(self._rows.values()))
-        parts = [self._fields[line] for line in self._rows]
-        arrays = ([getattr(part, name) for part in parts] for name in ("begin", "end", "absent"))
+                new_rows.setdefault(card, rows)
+        edits = {deck: self._edits(deck, new_rows) for deck in dict.fromkeys(card.deck for card in new_rows)}
+        return write_files(self._deck, edits, files.add(target), target, files)
+
+    def _edits(self, deck: Deck, new_rows: dict[Card, np.ndarray]) -> Edits:
+        """Edits of the coordinates in one file."""
+        cards = [card for card in new_rows if card.deck is deck]
+        given, rows = (np.concatenate([table[card] for card in cards]) for table in (self._rows, new_rows))
+        arrays = ([getattr(self._fields[card], name) for card in cards] for name in ("begin", "end", "absent"))
         fields = TextFields(*map(np.concatenate, arrays))
-        coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH, self._parsed)
-        points = np.concatenate([new_rows[line] for line in self._rows])
-        if not self._deck.pieces:
-            return coordinates.write(file, target, points)
-        return write_files(self._deck, coordinates.edits(points), file, target, files)
+        return TextCoordinates(deck.given, given, fields, _WIDTH, self._unparsed.isdisjoint(cards)).edits(rows)
 
     def _parse(self, card: Card) -> np.ndarray:
         """Coordinates of a card's nodes, (k, 3), from the fields that will be replaced, or else as the reader does."""
-        fields = self._fields[card.line] = node_fields(self._deck.data, card.begin, card.end)
-        rows = parse_fields(self._deck.given, fields.begin.ravel(), fields.end.ravel())
-        self._parsed &= rows is not None
-        return self._deck.nodes(card)[1] if rows is None else rows.reshape(-1, 3)
+        fields = self._fields[card] = node_fields(card.deck.data, card.begin, card.end)
+        rows = parse_fields(card.deck.given, fields.begin.ravel(), fields.end.ravel())
+        if rows is None:
+            self._unparsed.add(card)
+        return card.deck.nodes(card)[1] if rows is None else rows.reshape(-1, 3)
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:

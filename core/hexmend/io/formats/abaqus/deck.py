@@ -6,8 +6,8 @@ Files of an Abaqus deck, and their parts in the text that joins them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -23,65 +23,30 @@ class Reference:
 
     Parameters
     ----------
-    parent : DeckFile
+    parent : Deck
     begin, end : int
         Byte range of the name in the parent, with quotes if it has them.
     name : str
         The name without quotes.
     """
 
-    parent: DeckFile
+    parent: Deck
     begin: int
     end: int
     name: str
 
 
-@dataclass(eq=False)
-class DeckFile:
-    """The deck or a file that it includes; a file that is included twice is two of them.
-
-    Parameters
-    ----------
-    path : Path
-    data : bytes
-        Its content.
-    reference : Reference or None
-        None for the deck itself.
-    included : list of DeckFile
-    """
-
-    path: Path
-    data: bytes
-    reference: Reference | None = None
-    included: list[DeckFile] = field(default_factory=list)
-
-    def walk(self) -> Iterator[DeckFile]:
-        """Iterate over the file and all files that it includes, included ones last."""
-        yield self
-        for one in self.included:
-            yield from one.walk()
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """Part of a file in the joined text: its offset there and in the file, and its length."""
-
-    file: DeckFile
-    begin: int
-    file_begin: int
-    length: int
-
-
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
+NEWLINE = b"\n"
 _BLANKS = b" \t\r\v\f"
 #: Blank fields, and exponents with the letter D, which NumPy does not parse; in data lines without blanks.
 _IRREGULAR = (b",,", b"\n,", b"d", b"D")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Card:
-    """Keyword line and its data lines.
+    """Keyword line and data lines, of which those in an included file are a card of their own.
 
     Parameters
     ----------
@@ -89,45 +54,64 @@ class Card:
         Keyword in upper case, such as "NODE".
     options : dict of str to str
         Parameters by name in upper case; "" for those without a value.
+    deck : Deck
+        File of the data lines.
     begin, end : int
         Byte range of the data lines in `Deck.data`.
-    line : int
-        Line of the keyword, from 1.
+    at : int
+        Offset of the keyword, or of the data lines of a keyword in another file.
     """
 
     name: str
     options: dict[str, str]
+    deck: Deck
     begin: int
     end: int
-    line: int
+    at: int
+
+    @property
+    def place(self) -> str:
+        """Place of the card, such as "line 12", or "line 3 of nodes.inp" in an included file."""
+        line = f"line {self.deck.data.count(NEWLINE, 0, self.at) + 1}"
+        return line if self.deck.reference is None else f"{line} of {self.deck.path.name}"
+
+    def lines(self) -> list[str]:
+        """Return the data lines that are not blank, stripped."""
+        text = self.deck.data[self.begin : self.end].decode("utf-8", errors="replace")
+        return [line for line in map(str.strip, text.split("\n")) if line]
+
+    def fields(self) -> list[list[str]]:
+        """Return the fields of each data line; a comma at its end adds none."""
+        return [[field.strip() for field in _split_fields(line.removesuffix(","))] for line in self.lines()]
 
 
 class Deck:
-    """The cards of a file, and parsers of their data lines.
+    """A file of cards, and parsers of their data lines; a file that is included twice is two of them.
 
     Parameters
     ----------
     path : Path
-        The file; errors name it.
     data : bytes
-        Content of the file, joined with those that it includes.
-    pieces : sequence of Piece
-        Parts of files in the content, see `hexmend.io.formats.abaqus.deck`; empty for a file without others.
-    hidden : sequence of tuple of int
-        Byte ranges of the lines that include a file, which are read as blank: the data lines of a keyword may follow.
+        Its content.
+    reference : Reference or None
+        None for the deck itself, whose path errors name.
 
     Attributes
     ----------
     given : bytes
         The content as it is.
     data : bytes
-        The content, with blanks in place of comments and lines that end in "\\n"; offsets are those of `given`.
+        The content, with blanks in place of comments and lines that end in "\n"; offsets are those of `given`.
+    included : list of Deck
+        Files that it includes.
+    cards : list of Card
+        Cards of the file and of those that it includes, in order.
     """
 
-    def __init__(self, path: Path, data: bytes, pieces: Sequence[Piece] = (), hidden: Sequence[tuple[int, int]] = ()):
-        self.given, self.pieces = data, pieces
-        for begin, end in hidden:
-            data = data[:begin] + b" " * (end - begin) + data[end:]
+    def __init__(self, path: Path, data: bytes, reference: Reference | None = None):
+        self.given, self.reference = data, reference
+        self.included: list[Deck] = []
+        self.cards: list[Card] = []
         if b"\r" in data:
             data = data.replace(b"\r\n", b" \n").replace(b"\r", b"\n")
         if b"**" in data:
@@ -140,26 +124,29 @@ class Deck:
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
-        return FileError(self.path, problem, remedy)
+        return FileError(self.lineage()[-1].path, problem, remedy)
 
-    def place(self, card: Card) -> str:
-        """Describe the place of a card, such as "line 12", or "line 3 of nodes.inp" in an included file."""
-        at = card.begin - 1
-        for piece in self.pieces:
-            if piece.begin <= at <= piece.begin + piece.length and piece.file.reference is not None:
-                line = piece.file.data.count(b"\n", 0, piece.file_begin + at - piece.begin) + 1
-                return f"line {line} of {piece.file.path.name}"
-        return f"line {card.line}"
+    def walk(self) -> Iterator[Deck]:
+        """Iterate over the file and all files that it includes, included ones last."""
+        yield self
+        for one in self.included:
+            yield from one.walk()
 
-    def cards(self) -> Iterator[Card]:
-        """Iterate over all cards in order."""
-        line, counted_to, next_begin = 1, 0, 0
-        keywords = list(_keyword_lines(self.data))
+    def lineage(self) -> list[Deck]:
+        """Return the file, the one that includes it, and so on up to the deck."""
+        return [self, *(self.reference.parent.lineage() if self.reference else [])]
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file and of all files that it includes."""
+        return sum(len(one.data) for one in self.walk())
+
+    def own_cards(self) -> Iterator[Card]:
+        """Iterate over the cards whose keywords are in the file itself, in order."""
+        next_begin, keywords = 0, list(_keyword_lines(self.data))
         for k, (first, last) in enumerate(keywords):
             if first < next_begin:
                 continue
-            line += self.data.count(b"\n", counted_to, first)
-            counted_to = first
             head, begin = self.data[first:last], last + 1
             while head.rstrip().endswith(b",") and begin < len(self.data):  # continued on the next line
                 after = self.data.find(b"\n", begin)
@@ -169,16 +156,7 @@ class Deck:
             end = keywords[k + 1][0] if k + 1 < len(keywords) else len(self.data)
             end = max(end, last)
             name, options = _split_keyword(head.decode("utf-8", errors="replace"))
-            yield Card(name, options, min(begin, end), end, line)
-
-    def lines(self, card: Card) -> list[str]:
-        """Return the data lines that are not blank, stripped."""
-        text = self.data[card.begin : card.end].decode("utf-8", errors="replace")
-        return [line for line in map(str.strip, text.split("\n")) if line]
-
-    def fields(self, card: Card) -> list[list[str]]:
-        """Return the fields of each data line; a comma at its end adds none."""
-        return [[field.strip() for field in _split_fields(line.removesuffix(","))] for line in self.lines(card)]
+            yield Card(name, options, self, min(begin, end), end, first)
 
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
         """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
@@ -196,14 +174,12 @@ class Deck:
             rows = values.reshape(lines, width)[:, :4]
         else:
             rows = np.zeros((lines, 4))
-            for k, fields in enumerate(self.fields(card)):
+            for k, fields in enumerate(card.fields()):
                 rows[k, : len(fields[:4])] = [self._real(field) for field in fields[:4]]
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
         if wrong.size:
-            raise self.error(
-                f"*NODE in {self.place(card)} has the number {rows[wrong[0], 0]:g}: expected a whole number"
-            )
+            raise self.error(f"*NODE in {card.place} has the number {rows[wrong[0], 0]:g}: expected a whole number")
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
     def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from itertools import count
 from pathlib import Path, PurePosixPath
 
@@ -13,12 +13,14 @@ import numpy as np
 from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
-from hexmend.io.formats.abaqus.deck import Deck, DeckFile, Reference
+from hexmend.io.formats.abaqus.deck import Deck, Reference
 from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic import AtomicFiles
 
 
-def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: AtomicFiles) -> tuple[str, ...]:
+def write_files(
+    root: Deck, edits: Mapping[Deck, Edits], file: Path, target: Path, files: AtomicFiles
+) -> tuple[str, ...]:
     """Write a deck and the files that it includes with other coordinates.
 
     Where the deck replaces itself, so do its files. Else a file with moved nodes is written next to the new deck with
@@ -26,10 +28,9 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
 
     Parameters
     ----------
-    deck : Deck
-        With pieces.
-    edits : Edits
-        Of the joined text.
+    root : Deck
+    edits : mapping of Deck to Edits
+        Of the deck and the files that it includes.
     file, target : Path
         As of `LocatedCoordinates.write`.
     files : AtomicFiles
@@ -47,8 +48,7 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
     IncludedFileError
         If the copy of the deck would include itself.
     """
-    root = deck.pieces[0].file
-    own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
+    own = {one: part for one, part in edits.items() if len(part)}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:
         raise CoordinatesError(f"{twice[0].path.name} is included twice, and its nodes have moved")
@@ -72,7 +72,7 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
     return tuple(dict.fromkeys(reversed(notes)))
 
 
-def _references(file: DeckFile, renamed: dict[DeckFile, str]) -> list[tuple[Reference, str]]:
+def _references(file: Deck, renamed: dict[Deck, str]) -> list[tuple[Reference, str]]:
     """Places in a file that name files with another name in the copy, and these names."""
     return [(one.reference, renamed[one]) for one in file.included if one in renamed]
 
@@ -82,21 +82,9 @@ def _none() -> Edits:
     return Edits(nothing, nothing, [])
 
 
-def _write(path: Path, file: DeckFile, edits: Edits) -> None:
+def _write(path: Path, file: Deck, edits: Edits) -> None:
     with open(path, "wb") as out:
-        out.writelines(edited(file.data, edits))
-
-
-def _of_file(deck: Deck, edits: Edits, file: DeckFile) -> Edits:
-    """Edits of the joined text that lie in a file, with its offsets."""
-    parts = []
-    for piece in deck.pieces:
-        if piece.file is file:
-            low, high = np.searchsorted(edits.begin, [piece.begin, piece.begin + piece.length])
-            high += int(np.searchsorted(edits.begin[high:], piece.begin + piece.length, "right"))  # at its end
-            shift = piece.file_begin - piece.begin
-            parts.append(Edits(edits.begin[low:high] + shift, edits.end[low:high] + shift, edits.texts[low:high]))
-    return _merged(parts)
+        out.writelines(edited(file.given, edits))
 
 
 def _merged(parts: list[Edits]) -> Edits:
@@ -109,13 +97,13 @@ def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
     """Edits and the new names of included files."""
     parts = [edits]
     for reference, name in names:
-        quote = b'"' if reference.parent.data[reference.begin : reference.begin + 1] == b'"' else b""
+        quote = b'"' if reference.parent.given[reference.begin : reference.begin + 1] == b'"' else b""
         place = np.array([reference.begin]), np.array([reference.end])
         parts.append(Edits(*place, [quote + name.encode() + quote]))
     return _merged(parts)
 
 
-def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[DeckFile, str]:
+def _new_names(root: Deck, own: Collection[Deck], target: Path) -> dict[Deck, str]:
     """Names of the copies of included files with moved nodes, and of files that include them.
 
     No other file has the name, save one that the deck at the target includes, which these copies replace.
@@ -136,7 +124,7 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
     return renamed
 
 
-def _renamed(file: DeckFile, suffix: str) -> str:
+def _renamed(file: Deck, suffix: str) -> str:
     """Name of the copy of an included file, with letters behind its own; a file elsewhere comes next to the deck."""
     name = PurePosixPath(file.reference.name.replace("\\", "/"))
     name = name.with_name(f"{name.stem}{suffix}{name.suffix}")
@@ -150,7 +138,7 @@ def _place(target: Path, name: str) -> Path:
     return path
 
 
-def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: AtomicFiles) -> list[str]:
+def _copied(file: Deck, renamed: dict[Deck, str], target: Path, files: AtomicFiles) -> list[str]:
     """Copy an included file that stays as it is to where the new deck looks for it; returns notes.
 
     Raises `IncludedFileError` where the new deck has the name of this file: it would include itself.
@@ -165,7 +153,7 @@ def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: A
         raise IncludedFileError(target, f"has the name of a file that {deck} includes", "Choose another name.")
     found = next((path for path in places if path.is_file()), None)
     if found is not None or ".." in name.parts:
-        same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
+        same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.given)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
     shutil.copyfile(file.path, files.add(_place(target, str(name))))
     return [f"{name} is copied next to the new deck."]

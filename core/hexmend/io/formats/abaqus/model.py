@@ -283,10 +283,10 @@ def element_card(deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
     FileError
         Unless its numbers are those of whole elements.
     """
-    numbers = deck.numbers(card, "*ELEMENT", np.int64)
+    numbers = card.deck.numbers(card, "*ELEMENT", np.int64)
     width = 1 + node_count(kind)
     if numbers.size % width:
-        problem = f"*ELEMENT of type {quoted(type)} in {deck.place(card)} holds {numbers.size} numbers"
+        problem = f"*ELEMENT of type {quoted(type)} in {card.place} holds {numbers.size} numbers"
         raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
     rows = numbers.reshape(-1, width)
     return ElementCard(type, kind, rows[:, 0].copy(), rows[:, 1:])
