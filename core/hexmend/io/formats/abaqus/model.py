@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import lookup
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.abaqus.deck import Card, Deck
 
@@ -150,11 +151,7 @@ class SetLookup:
 
     def _positions(self, numbers: np.ndarray) -> np.ndarray:
         """Positions of the numbers that exist; the others are counted."""
-        if not len(self.ids):
-            self.n_unknown += len(numbers)
-            return np.zeros(0, np.int64)
-        at = np.minimum(np.searchsorted(self.ids, numbers), len(self.ids) - 1)
-        exists = self.ids[at] == numbers
+        at, exists = lookup(self.ids, numbers, np.arange(len(self.ids)))
         self.n_unknown += int((~exists).sum())
         return self.order[at[exists]]
 
