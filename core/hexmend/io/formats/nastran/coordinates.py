@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import read_text_bytes
-from hexmend.io.formats.nastran.bulk import BulkData, CardBlock
-from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, is_exact, real_field
+from hexmend.io.formats.nastran.bulk import BulkData
+from hexmend.io.formats.nastran.cards import is_exact, real_field
 from hexmend.io.formats.nastran.reader import BulkModel
 from hexmend.terminal_text import count_phrase
 
@@ -123,18 +123,12 @@ def locate(path: Path) -> NastranCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
     data = read_text_bytes(path)
     bulk = BulkData(path, data.replace(b"\r\n", b" \n").replace(b"\r", b"\n"))
-    model, lines = BulkModel(bulk), []
-    for item in bulk.cards_and_blocks({"GRID", *KINDS_OF_CARD}):
-        if isinstance(item, CardBlock) and item.name != "GRID":
-            continue
-        if isinstance(item, CardBlock) and model.add_block(item):
-            lines.append(np.linspace(item.first, item.last, len(item.fields), endpoint=False).astype(np.int64))
-            continue
-        for card in bulk.cards(item.first, item.last) if isinstance(item, CardBlock) else [item]:
-            if card[1] == "GRID":
-                model.add_card(*card)
-                lines.append(np.array([card[0] - 1]))
-    return NastranCoordinates(data, bulk, model.points.array(), np.concatenate(lines))
+    model = BulkModel(path)
+    for cards in bulk.cards():
+        if cards.name == "GRID":
+            model.add_grid_points(cards)
+    lines, _, points = map(np.concatenate, zip(*model.grid_points, strict=True))
+    return NastranCoordinates(data, bulk, points, lines - 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +181,7 @@ class NastranCoordinates:
         ranges = [self._range(line)]
         if not is_large(self.data[slice(*ranges[0])].decode("latin-1")):
             return ranges
-        for k in range(line + 1, len(self.bulk.lines)):
+        for k in range(line + 1, len(self.bulk.start)):
             begin, end = self._range(k)
             text = self.data[begin:end].partition(b"$")[0]
             if text.strip():
@@ -197,5 +191,5 @@ class NastranCoordinates:
 
     def _range(self, line: int) -> tuple[int, int]:
         """Byte range of a line without its end."""
-        begin, end = int(self.bulk.lines.start[line]), int(self.bulk.lines.end[line])
+        begin, end = int(self.bulk.start[line]), int(self.bulk.end[line])
         return begin, end - (end > begin and self.data[end - 1 : end + 1] == b"\r\n")
