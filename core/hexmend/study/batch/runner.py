@@ -189,7 +189,7 @@ def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> It
         for case in plan.cases:
             if (place := (mesh, case.name)) in rows:
                 values = *place, case.method, case.parameters, *keys.get(place, (None, None))
-                yield dict(zip((column.name for column in PLACE), values, strict=True)) | rows[place]
+                yield dict(zip(PLACE, values, strict=True)) | rows[place]
 
 
 def _name(mesh: Path, case: Case, key: str) -> str:

@@ -86,7 +86,7 @@ def _write_report(folder: Path, study: StudyResult) -> None:
     record = study.record()
     paths = write_batch_study(folder, record, machine())
     try:
-        write_parquet(folder / "study.parquet", record["rows"], {column.name: column.type for column in COLUMNS})
+        write_parquet(folder / "study.parquet", record["rows"], COLUMNS)
         paths.append(folder / "study.parquet")
     except HexmendError as error:
         print(f"hexmend: {error}", file=sys.stderr)
