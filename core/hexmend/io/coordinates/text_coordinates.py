@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.io.base.decimals import parse_numbers
 from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.storage.atomic import AtomicFiles
 
 
 def number_texts(values: np.ndarray, width: int = 0) -> list[bytes]:
@@ -113,9 +114,9 @@ class TextCoordinates:
     width: int = 0
     parsed: bool = False
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        with open(file, "wb") as out:
+        with open(files.add(target), "wb") as out:
             out.writelines(edited(self.data, self.edits(points)))
         return ()
 

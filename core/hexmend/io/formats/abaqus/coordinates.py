@@ -30,7 +30,7 @@ def locate(path: Path) -> AbaqusCoordinates:
 
 
 class AbaqusCoordinates:
-    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedFiles`.
+    """Coordinates of all instances, see `hexmend.io.coordinates.located.LocatedCoordinates`.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ class AbaqusCoordinates:
                 instance.part.points.append(self._rows[card])
         self.points = np.concatenate([instance.points() for instance in instances])
 
-    def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
-        """Write the deck and its files with new coordinates; see `LocatedFiles.write_files`."""
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
+        """Write the deck and its files with new coordinates; see `LocatedCoordinates.write`."""
         new_rows: dict[Card, np.ndarray] = {}
         first = 0
         for instance in self._instances:
@@ -65,7 +65,7 @@ class AbaqusCoordinates:
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
                 new_rows.setdefault(card, rows)
         edits = {deck: self._edits(deck, new_rows) for deck in dict.fromkeys(card.deck for card in new_rows)}
-        return write_files(self._deck, edits, files.add(target), target, files)
+        return write_files(self._deck, edits, target, files)
 
     def _edits(self, deck: Deck, new_rows: dict[Card, np.ndarray]) -> Edits:
         """Edits of the coordinates in one file."""

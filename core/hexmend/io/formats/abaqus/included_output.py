@@ -18,9 +18,7 @@ from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic import AtomicFiles
 
 
-def write_files(
-    root: Deck, edits: Mapping[Deck, Edits], file: Path, target: Path, files: AtomicFiles
-) -> tuple[str, ...]:
+def write_files(root: Deck, edits: Mapping[Deck, Edits], target: Path, files: AtomicFiles) -> tuple[str, ...]:
     """Write a deck and the files that it includes with other coordinates.
 
     Where the deck replaces itself, so do its files. Else a file with moved nodes is written next to the new deck with
@@ -31,10 +29,9 @@ def write_files(
     root : Deck
     edits : mapping of Deck to Edits
         Of the deck and the files that it includes.
-    file, target : Path
-        As of `LocatedCoordinates.write`.
+    target : Path
     files : AtomicFiles
-        Takes the files beside the target.
+        As of `LocatedCoordinates.write`.
 
     Returns
     -------
@@ -48,6 +45,7 @@ def write_files(
     IncludedFileError
         If the copy of the deck would include itself.
     """
+    file = files.add(target)  # the first, which is replaced last
     own = {one: part for one, part in edits.items() if len(part)}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:

@@ -17,6 +17,7 @@ from hexmend.io.base.cursor import read_text_bytes
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.cards import is_exact, real_field
 from hexmend.io.formats.nastran.reader import BulkModel
+from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.terminal_text import count_phrase
 
 #: Columns of a field in the small and in the large layout, and fields of a line.
@@ -151,7 +152,7 @@ class NastranCoordinates:
     points: np.ndarray
     lines: np.ndarray
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
         changed = ~(points == self.points)
         moved = np.flatnonzero(changed.any(axis=1))
@@ -168,7 +169,7 @@ class NastranCoordinates:
             between = self.data[end : after[0]] if len(ranges) > 1 else line_end
             pieces += [self.data[at:begin], between.join(one.encode("latin-1") for one in lines)]
             at = after[1]
-        with open(file, "wb") as out:
+        with open(files.add(target), "wb") as out:
             out.writelines(pieces)
             out.write(memoryview(self.data)[at:])
         widened = count_phrase(n_widened, "GRID card has", "GRID cards have")
