@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.decimals import parse_numbers
 from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.storage.atomic import AtomicFiles
@@ -55,8 +54,8 @@ def shortened(value: float, width: int) -> str:
 
 #: Fields that are checked at a time, which limits the memory.
 _CHUNK = 1 << 17
-#: Letters as NumPy parses them: exponents with e, blanks between numbers.
-_NUMBER = bytes.maketrans(b"Dd,", b"ee ")
+#: Longest field that is parsed together with others, in bytes.
+_WIDEST = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,15 +103,12 @@ class TextCoordinates:
     fields : TextFields
     width : int
         Most characters of a number; 0 for no limit.
-    parsed : bool
-        True if the points are those that `parse_fields` has found, so that they need no check.
     """
 
     data: bytes
     points: np.ndarray
     fields: TextFields
     width: int = 0
-    parsed: bool = False
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
@@ -123,8 +119,7 @@ class TextCoordinates:
     def edits(self, points: np.ndarray) -> Edits:
         """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
-        if not self.parsed:
-            self._check(changed)
+        self._check(changed)
         changed |= changed.any(axis=1)[:, None] & self.fields.absent
         return self.fields.edits(changed, number_texts(points[changed], self.width))
 
@@ -149,14 +144,22 @@ def parse_fields(data: bytes, begin: np.ndarray, end: np.ndarray) -> np.ndarray 
     (k,) float64 or None
         0 for a blank field.
     """
-    filled, values = np.flatnonzero(begin < end), np.zeros(len(begin))
-    for low in range(0, len(filled), _CHUNK):
-        part = filled[low : low + _CHUNK]
-        text = b" ".join(data[a:b] for a, b in zip(begin[part].tolist(), end[part].tolist(), strict=True))
-        found = parse_numbers(text.translate(_NUMBER), np.float64)
-        if found is None or len(found) != len(part):
-            return None
-        values[part] = found
+    values, size, letters = np.zeros(len(begin)), end - begin, np.frombuffer(data, np.uint8)
+    try:
+        for row in np.flatnonzero(size > _WIDEST).tolist():
+            values[row] = float(data[begin[row] : end[row]])
+        filled = np.flatnonzero((size > 0) & (size <= _WIDEST))
+        for low in range(0, len(filled), _CHUNK):
+            part = filled[low : low + _CHUNK]
+            columns = np.arange(size[part].max())
+            texts = letters.take(begin[part, None] + columns, mode="clip")
+            texts[columns >= size[part, None]] = 0
+            texts[(texts == ord("D")) | (texts == ord("d"))] = ord("e")  # of exponents
+            if (texts == ord("_")).any():  # which Python allows in numbers
+                return None
+            values[part] = texts.view(f"S{len(columns)}")[:, 0].astype(np.float64)
+    except ValueError:
+        return None
     return values
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.io.base.cursor import quoted
 from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields, parse_fields
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.included_output import write_files
 from hexmend.io.formats.abaqus.includes import read_deck
@@ -43,11 +43,10 @@ class AbaqusCoordinates:
         self._deck, self._instances = deck, instances
         self._rows: dict[Card, np.ndarray] = {}
         self._fields: dict[Card, TextFields] = {}
-        self._unparsed: set[Card] = set()
         for instance in instances:
             for card in instance.part.node_cards:
                 if card not in self._rows:
-                    self._rows[card] = self._parse(card)
+                    _, self._rows[card], self._fields[card] = card.deck.nodes(card)
                 instance.part.points.append(self._rows[card])
         self.points = np.concatenate([instance.points() for instance in instances])
 
@@ -73,15 +72,7 @@ class AbaqusCoordinates:
         given, rows = (np.concatenate([table[card] for card in cards]) for table in (self._rows, new_rows))
         arrays = ([getattr(self._fields[card], name) for card in cards] for name in ("begin", "end", "absent"))
         fields = TextFields(*map(np.concatenate, arrays))
-        return TextCoordinates(deck.given, given, fields, _WIDTH, self._unparsed.isdisjoint(cards)).edits(rows)
-
-    def _parse(self, card: Card) -> np.ndarray:
-        """Coordinates of a card's nodes, (k, 3), from the fields that will be replaced, or else as the reader does."""
-        fields = self._fields[card] = node_fields(card.deck.data, card.begin, card.end)
-        rows = parse_fields(card.deck.given, fields.begin.ravel(), fields.end.ravel())
-        if rows is None:
-            self._unparsed.add(card)
-        return card.deck.nodes(card)[1] if rows is None else rows.reshape(-1, 3)
+        return TextCoordinates(deck.given, given, fields, _WIDTH).edits(rows)
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -96,52 +87,3 @@ def _same(a: np.ndarray, b: np.ndarray) -> bool:
     """Return True if nodes coincide up to rounding."""
     size = np.ptp(a, axis=0).max(initial=0.0)
     return bool((np.abs(a - b) <= _ROUNDING * size).all())
-
-
-def node_fields(data: bytes, begin: int, end: int) -> TextFields:
-    """Fields of the coordinates in the data lines of a *NODE card, which follow the number of the node.
-
-    Parameters
-    ----------
-    data : bytes
-    begin, end : int
-        Byte range of the data lines.
-
-    Returns
-    -------
-    TextFields
-        A row for each line that is not blank.
-    """
-    letters = np.frombuffer(data, np.uint8, end - begin, begin)
-    if not (letters > ord(" ")).any():
-        none = np.zeros((0, 3), np.int64)
-        return TextFields(none, none, none.astype(bool))
-    breaks, commas = np.flatnonzero(letters == ord("\n")), np.flatnonzero(letters == ord(","))
-    start, stop = np.append(0, breaks + 1), np.append(breaks, len(letters))
-    start, stop = start[start < len(letters)], stop[start < len(letters)]
-    first = np.searchsorted(commas, start)
-    count = np.searchsorted(commas, stop) - first
-    if not count.all():  # lines without a comma may be blank
-        filled = np.logical_or.reduceat(letters > ord(" "), start)
-        start, stop, first, count = start[filled], stop[filled], first[filled], count[filled]
-    commas = np.append(commas, [0] * 4)  # never read for fields that are absent
-    _, last = _trimmed(letters, start, stop)
-    low, high = np.empty((len(start), 3), np.int64), np.empty((len(start), 3), np.int64)
-    absent = count[:, None] <= np.arange(3)
-    for k in range(3):
-        low[:, k] = np.where(absent[:, k], last, commas[first + k] + 1)
-        high[:, k] = np.where(absent[:, k], last, np.where(count > k + 1, commas[first + k + 1], last))
-    begins, ends = _trimmed(letters, low, np.maximum(low, high))
-    blank = begins == ends
-    begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
-    return TextFields(begins + begin, ends + begin, absent)
-
-
-def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Ranges without blanks at their ends."""
-    begin, end = begin.copy(), end.copy()
-    while (blank := (begin < end) & (letters[np.minimum(begin, len(letters) - 1)] <= ord(" "))).any():
-        begin += blank
-    while (blank := (begin < end) & (letters[end - 1] <= ord(" "))).any():
-        end -= blank
-    return begin, end

@@ -15,6 +15,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +40,6 @@ class Reference:
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
 NEWLINE = b"\n"
-_BLANKS = b" \t\r\v\f"
-#: Blank fields, and exponents with the letter D, which NumPy does not parse; in data lines without blanks.
-_IRREGULAR = (b",,", b"\n,", b"d", b"D")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +70,7 @@ class Card:
     @property
     def place(self) -> str:
         """Place of the card, such as "line 12", or "line 3 of nodes.inp" in an included file."""
-        line = f"line {self.deck.data.count(NEWLINE, 0, self.at) + 1}"
-        return line if self.deck.reference is None else f"{line} of {self.deck.path.name}"
+        return self.deck.place(self.at)
 
     def lines(self) -> list[str]:
         """Return the data lines that are not blank, stripped."""
@@ -126,6 +123,11 @@ class Deck:
         """Make the error to raise."""
         return FileError(self.lineage()[-1].path, problem, remedy)
 
+    def place(self, at: int) -> str:
+        """Return the place of an offset, such as "line 12", or "line 3 of nodes.inp" in an included file."""
+        line = f"line {self.data.count(NEWLINE, 0, at) + 1}"
+        return line if self.reference is None else f"{line} of {self.path.name}"
+
     def walk(self) -> Iterator[Deck]:
         """Iterate over the file and all files that it includes, included ones last."""
         yield self
@@ -158,40 +160,34 @@ class Deck:
             name, options = _split_keyword(head.decode("utf-8", errors="replace"))
             yield Card(name, options, self, min(begin, end), end, first)
 
-    def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
-        """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
-        text = self.data[card.begin : card.end]
-        bare = text.translate(None, _BLANKS)
-        first = bare.lstrip(b"\n").split(b"\n", 1)[0].removesuffix(b",")
-        width = first.count(b",") + 1 if first else 0
-        breaks = np.frombuffer(b"\n" + bare, np.uint8) == ord("\n")
-        lines = int(np.count_nonzero(breaks[:-1] & ~breaks[1:]))
-        values = None
-        regular = not bare.startswith(b",") and not any(mark in bare for mark in _IRREGULAR)
-        if width >= 4 and regular and _has_even_lines(bare):
-            values = self.numbers(card, "*NODE", np.float64)
-        if values is not None and values.size == lines * width:
-            rows = values.reshape(lines, width)[:, :4]
-        else:
-            rows = np.zeros((lines, 4))
-            for k, fields in enumerate(card.fields()):
-                rows[k, : len(fields[:4])] = [self._real(field) for field in fields[:4]]
+    def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray, TextFields]:
+        """Return the numbers, (k,) int64, coordinates, (k, 3) float64, and their fields, of a *NODE card.
+
+        Blank fields are 0.
+        """
+        fields = _node_fields(self.data, card.begin, card.end)
+        begin, end = fields.begin.ravel(), fields.end.ravel()
+        values = parse_fields(self.data, begin, end)
+        if values is None:
+            low, high = 0, len(begin)
+            while high - low > 1:
+                middle = (low + high) // 2
+                found = parse_fields(self.data, begin[low:middle], end[low:middle]) is None
+                low, high = (low, middle) if found else (middle, high)
+            word = self.data[begin[low] : end[low]].decode("utf-8", errors="replace")
+            raise self.error(f"*NODE in {self.place(int(begin[low]))} holds {quoted(word)}: expected a number")
+        rows = values.reshape(-1, 4)
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
         if wrong.size:
             raise self.error(f"*NODE in {card.place} has the number {rows[wrong[0], 0]:g}: expected a whole number")
-        return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
+        coordinates = TextFields(*(part[:, 1:] for part in (fields.begin, fields.end, fields.absent)))
+        return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:]), coordinates
 
     def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:
         """Return all numbers of a card, (k,), line ends ignored."""
         self._cursor.pos = card.begin
         return self._cursor.read_numbers_to(label, card.end, dtype)
-
-    def _real(self, field: str) -> float:
-        try:
-            return float(field.upper().replace("D", "E")) if field else 0.0
-        except ValueError:
-            raise self.error(f"*NODE holds {quoted(field)}: expected a number") from None
 
 
 def _keyword_lines(data: bytes) -> Iterator[tuple[int, int]]:
@@ -205,17 +201,34 @@ def _keyword_lines(data: bytes) -> Iterator[tuple[int, int]]:
         at = data.find(b"*", end)
 
 
-def _has_even_lines(text: bytes) -> bool:
-    """Return True if all lines that are not empty have the same number of commas."""
-    letters = np.frombuffer(b"\n" + text, np.uint8)
-    marks = letters[(letters == ord("\n")) | (letters == ord(","))]
-    counts = np.diff(np.flatnonzero(marks == ord("\n")), append=len(marks)) - 1
-    counts = counts[:-1] if text.endswith(b"\n") else counts
-    if counts.all():  # no line is empty: much faster than the general case
-        return bool((counts == counts[:1]).all())
-    starts = np.flatnonzero(letters == ord("\n"))
-    commas = np.add.reduceat(letters == ord(","), starts, dtype=np.int64)[np.diff(starts, append=len(letters)) > 1]
-    return bool((commas == commas[:1]).all())
+def _node_fields(data: bytes, begin: int, end: int) -> TextFields:
+    """Fields of the number and the coordinates in the data lines of a *NODE card, a row for each line not blank."""
+    letters = np.frombuffer(data, np.uint8)
+    breaks, commas = (begin + np.flatnonzero(letters[begin:end] == ord(mark)) for mark in "\n,")
+    start, stop = _trimmed(letters, np.append(begin, breaks + 1), np.append(breaks, end))
+    start, stop = start[start < stop], stop[start < stop]
+    first = np.searchsorted(commas, start)
+    count = np.searchsorted(commas, stop) - first
+    absent = count[:, None] < np.arange(4)
+    at = first[:, None] + np.arange(-1, 4)  # commas around the fields
+    around = np.append(commas, 0)[np.clip(at, 0, len(commas))]
+    low = np.where(absent, stop[:, None], around[:, :4] + 1)
+    low[:, 0] = start
+    high = np.where(count[:, None] > np.arange(4), around[:, 1:], stop[:, None])
+    begins, ends = _trimmed(letters, low, np.maximum(low, high))
+    blank = begins == ends
+    begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
+    return TextFields(begins, ends, absent)
+
+
+def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ranges without blanks at their ends."""
+    begin, end = begin.copy(), end.copy()
+    while (blank := (begin < end) & (letters[np.minimum(begin, len(letters) - 1)] <= ord(" "))).any():
+        begin += blank
+    while (blank := (begin < end) & (letters[end - 1] <= ord(" "))).any():
+        end -= blank
+    return begin, end
 
 
 def _split_keyword(head: str) -> tuple[str, dict[str, str]]:

@@ -127,7 +127,7 @@ class _Reader:
         """*NODE, NSET=..."""
         if card.options.get("SYSTEM", "R").upper() not in ("R", ""):
             raise self.deck.error(f"*NODE in {card.place} has other coordinates than x, y and z", _EXPAND)
-        ids, points = card.deck.nodes(card)
+        ids, points, _ = card.deck.nodes(card)
         self.part.node_ids.append(ids)
         self.part.points.append(points)
         if "NSET" in card.options:
