@@ -142,8 +142,8 @@ def _add_condition(
     numbers = members[0].integers().ravel()
     at_vertices = node.text_of("GridLocation_t", "Vertex") == "Vertex"
     of_nodes = at_vertices and not members[0].name.startswith("Element")
-    if of_nodes and numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
-        raise FileError(node.path, f"boundary condition {name!r} refers to nodes that do not exist", DAMAGED)
+    if of_nodes:
+        check_numbers(node.path, f"boundary condition {name!r} refers to the nodes", numbers - 1, len(zone.points))
     if members[0].name.endswith("Range"):
         if numbers.size != 2 or numbers[1] < numbers[0]:
             raise FileError(node.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)

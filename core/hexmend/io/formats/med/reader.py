@@ -15,6 +15,7 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, node_count, to_vtk_order
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED, check_suffix, unread_note
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
@@ -94,9 +95,7 @@ def _block(path: Path, type: str, cells: Mapping, n_nodes: int, families: Mappin
     if numbers.ndim != 1 or numbers.size % width or numbers.dtype.kind not in "iu":
         raise FileError(path, f"{type}/NOD holds {numbers.size} numbers: expected {width} a cell", DAMAGED)
     nodes = numbers.astype(np.int64).reshape(width, -1).T - 1
-    if nodes.size and (nodes.min() < 0 or nodes.max() >= n_nodes):
-        wrong = int(nodes[(nodes < 0) | (nodes >= n_nodes)][0]) + 1
-        raise FileError(path, f"{type}/NOD refers to node {wrong}: expected 1 to {n_nodes}", DAMAGED)
+    check_numbers(path, f"{type}/NOD refers to the nodes", nodes, n_nodes)
     nodes = np.ascontiguousarray(to_vtk_order(nodes, kind, ORDER))
     return Block(kind, nodes, _ids(path, cells, len(nodes)), _sets(path, cells, len(nodes), families))
 
