@@ -11,11 +11,12 @@ from typing import Any
 from benchmarks.thesis import plots
 from benchmarks.thesis.differences import differences_table, same_counts
 from benchmarks.thesis.outlook.report import outlook_stem, outlook_table
-from hexmend.report.comparison import comparison_table
+from hexmend.report.comparison import LINES, explanations, label
 from hexmend.report.documents import write_documents, write_text
 from hexmend.report.markdown import escape, markdown
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
+from hexmend.terminal_text import FailedText, ShortestText
 
 #: Words for a claim that was reproduced, not reproduced, or not judged.
 REPRODUCTION = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
@@ -80,7 +81,32 @@ def experiment_table(experiment: Mapping[str, Any]) -> Table:
     failed, shortest = _notation(experiment["columns"])
     notes += [_FAILED] if failed else []
     notes += [_SHORTEST] if shortest else []
-    return comparison_table(title, experiment["columns"], experiment["published"], notes, failed, shortest)
+    columns = experiment["columns"]
+    rows = table_rows(columns, experiment["published"], failed, shortest)
+    return Table(title, ["", *columns], rows, [*notes, *explanations(columns)])
+
+
+def table_rows(
+    columns: Mapping[str, Mapping[str, Any]],
+    published: Mapping[str, Mapping[str, Any]],
+    failed: Sequence[str] = (),
+    shortest: str = "",
+) -> list[list[str]]:
+    """Make the rows of a table: figures of all columns, and below them those of the thesis by column.
+
+    Figures of the columns `failed`, and the time of the column `shortest`, are marked.
+    """
+    rows = []
+    for figure in LINES:
+        cells = {head: figure.of(record) for head, record in columns.items()}
+        cells |= {head: FailedText(cells[head]) for head in failed}
+        if shortest and figure.key == "seconds":
+            cells[shortest] = ShortestText(cells[shortest])
+        rows.append([label(figure, columns.values()), *cells.values()])
+        theirs = [published.get(head, {}) for head in columns]
+        if any(record.get(figure.key) is not None for record in theirs):
+            rows.append(["– thesis", *(figure.of(record) for record in theirs)])
+    return rows
 
 
 def _notation(columns: Mapping[str, Mapping[str, Any]]) -> tuple[list[str], str]:

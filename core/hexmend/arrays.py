@@ -177,3 +177,15 @@ def index_of(numbers: np.ndarray, n: int) -> np.ndarray:
     index = np.full(n, -1, np.int32)
     index[numbers] = np.arange(len(numbers), dtype=np.int32)
     return index
+
+
+def find_rows(known: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Find the first row of `known` (k, w) that is equal to each row wanted (j, w), (j,) int64; -1 where there is none.
+
+    >>> find_rows(np.array([[1, 2], [3, 4], [1, 2]]), np.array([[3, 4], [2, 1], [1, 2]])).tolist()
+    [1, -1, 0]
+    """
+    rows = np.concatenate([known, wanted])
+    _, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    found = first[which.reshape(-1)[len(known) :]]
+    return np.where(found < len(known), found, -1)

@@ -9,7 +9,9 @@ from benchmarks.thesis import study
 from benchmarks.thesis.claims import CLAIMS
 from benchmarks.thesis.experiments import INITIAL, load
 from benchmarks.thesis.outlook.claims import OUTLOOK_CLAIMS
+from benchmarks.thesis.report import table_rows
 from hexmend.gallery import GALLERY
+from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
 
 THESIS = load()
@@ -46,6 +48,14 @@ def test_published_qualities_are_possible():
 def test_every_claim_is_judged_without_figures(claim):
     assert claim([]).reproduced is None
     assert claim([]).figures
+
+
+def test_a_published_figure_stands_below_ours():
+    columns = {"initial": {"q_min": 0.25}, "local-sd": {"q_min": 0.5}}
+    rows = table_rows(columns, {"local-sd": {"q_min": 0.75}})
+    at = next(k for k, row in enumerate(rows) if row[0] == "q min")
+    assert rows[at : at + 2] == [["q min", "0.2500", "0.5000"], ["– thesis", "–", "0.7500"]]
+    assert [row[0] for row in rows if row[0] != "– thesis"] == [figure.label for figure in LINES]
 
 
 @pytest.mark.slow

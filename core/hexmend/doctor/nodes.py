@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
+from hexmend.kernels.closest_point import numbers_of_different_points
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.close_pairs import close_pairs
@@ -27,7 +28,8 @@ class CoincidentNodes(Problem):
     action = "merge them, so that faces on each other become one"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        if quick and not _count_repeated(mesh.points[referenced_nodes(mesh)] + 0.0):  # -0 becomes 0
+        points = mesh.points[referenced_nodes(mesh)]
+        if quick and numbers_of_different_points(points).max(initial=-1) + 1 == len(points):
             return NONE_FOUND
         return np.flatnonzero(_merge_targets(mesh) != np.arange(mesh.n_nodes))
 
@@ -94,24 +96,6 @@ class HangingNodes(Problem):
             f"{count_phrase(where.size, 'node hangs', 'nodes hang')} in the middle of edges or faces of hexes that do "
             f"not use {'it' if where.size == 1 else 'them'}.",
         )
-
-
-def _count_repeated(rows: np.ndarray) -> int:
-    """Count the rows (n, k) that are equal to an earlier row.
-
-    Rows are compared by hash first: if all hashes differ, no row is repeated, and sorting the rows themselves, which
-    takes ten times longer, is not needed.
-    """
-    bits = rows.view(f"u{rows.itemsize}").astype(np.uint64)
-    bits ^= bits >> np.uint64(32)
-    numbers = np.zeros(len(rows), np.uint64)
-    for column in bits.T:
-        numbers = (numbers ^ column) * np.uint64(0x9E3779B97F4A7C15)
-        numbers ^= numbers >> np.uint64(29)
-    numbers.sort()
-    if (numbers[1:] != numbers[:-1]).all():
-        return 0
-    return len(rows) - len(np.unique(rows, axis=0))
 
 
 def _merge_distance(mesh: Mesh) -> float:

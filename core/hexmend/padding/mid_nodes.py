@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import find_rows
 from hexmend.mesh.second_order import MID_EDGES
 from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
 from hexmend.padding.inserted_layer import INNER, LATERAL, OUTER, Sheet
@@ -77,13 +78,8 @@ def _replace_sides(behind: np.ndarray, sheet: Sheet, keys: np.ndarray, copies: n
     ends = np.sort(sheet.inner_hexes[rows][:, MID_EDGES], axis=2)
     own = np.concatenate([behind[rows, :12, None], ends], axis=2).reshape(-1, 3)
     given = keys[:, 0] >= 0
-    keys, copies = keys[given], copies[given]
-    _, which = np.unique(np.concatenate([keys, own]), axis=0, return_inverse=True)
-    which = which.reshape(-1)
-    answer = np.full(which.max(initial=0) + 1, -1)
-    answer[which[: len(keys)]] = copies
-    found = answer[which[len(keys) :]].reshape(-1, 12)
-    behind[rows, :12] = np.where(found >= 0, found, behind[rows, :12])
+    found = find_rows(keys[given], own).reshape(-1, 12)
+    behind[rows, :12] = np.where(found >= 0, np.append(copies[given], -1)[found], behind[rows, :12])
 
 
 class _Numbers:

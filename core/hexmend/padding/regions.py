@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import find_rows, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
@@ -187,9 +187,7 @@ def _sides_on(mesh: Mesh, quads: list[np.ndarray]) -> np.ndarray:
     sides = np.argwhere(mesh.topology.face_neighbours < 0)
     corners = np.sort(mesh.hexes[sides[:, :1], FACES[sides[:, 1]]], axis=1)
     given = np.sort(np.concatenate([quad[:, :4] for quad in quads if quad.shape[1] >= 4] or [corners[:0]]), axis=1)
-    _, which = np.unique(np.concatenate([given, corners]), axis=0, return_inverse=True)
-    which = which.reshape(-1)
-    found = np.isin(which[len(given) :], which[: len(given)])
+    found = find_rows(given, corners) >= 0
     marks[sides[found, 0], sides[found, 1]] = True
     return marks
 

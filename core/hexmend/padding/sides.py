@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import find_rows
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
@@ -182,10 +183,8 @@ def _sides_of(sheet: Sheet, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     on_sheet = sheet.is_padded[sides[:, 0], sides[:, 1]]
     sides = np.concatenate([sides[on_sheet], sides[~on_sheet]])  # a face of the sheet has another hex across
     corners = np.sort(sheet.mesh.hexes[sides[:, :1], FACES[sides[:, 1]]], axis=1)
-    keys = np.concatenate([corners, np.sort(quads[:, :4], axis=1)])
-    _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    found = first[which.reshape(-1)[len(corners) :]]
-    rows = np.flatnonzero((found >= np.count_nonzero(on_sheet)) & (found < len(corners)))
+    found = find_rows(corners, np.sort(quads[:, :4], axis=1))
+    rows = np.flatnonzero(found >= np.count_nonzero(on_sheet))
     return rows, sides[found[rows]]
 
 
@@ -198,10 +197,9 @@ def _padded_lines(
     pairs = mesh.hexes[near][:, EDGES].reshape(-1, 2).astype(np.int64)
     numbers = copies[near][:, EDGES].reshape(-1, 2)
     on_sheet = np.sort(sheet.originals[sheet.edges], axis=1)
-    keys, given = _keys(pairs, n), _keys(lines[:, :2].astype(np.int64), n)
-    _, first, which = np.unique(np.concatenate([keys, given]), return_index=True, return_inverse=True)
-    found = first[which.reshape(-1)[len(keys) :]]
-    rows = np.flatnonzero((found < len(keys)) & ~np.isin(given, _keys(on_sheet, n)))
+    given = np.sort(lines[:, :2], axis=1)
+    found = find_rows(np.sort(pairs, axis=1), given)
+    rows = np.flatnonzero((found >= 0) & (find_rows(on_sheet, given) < 0))
     edge, number = pairs[found[rows]], numbers[found[rows]]
     turned = edge[:, 0] != lines[rows, 0]
     number[turned] = number[turned, ::-1]
@@ -215,8 +213,3 @@ def _padded_lines(
         added = np.concatenate([added, upright[number[at, end]][:, None]], axis=1)
     added, once = np.unique(added, axis=0, return_index=True)
     return nodes, rows[at[once]], added
-
-
-def _keys(pairs: np.ndarray, n: int) -> np.ndarray:
-    """Number of each pair of nodes (j, 2), whatever its order."""
-    return pairs.min(axis=1) * n + pairs.max(axis=1)

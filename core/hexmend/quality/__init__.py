@@ -1,7 +1,7 @@
 """Quality of hexes and of meshes: metrics, measurement, statistics and summary.
 
-Every module of `hexmend.quality.metrics` and its packages is imported here and registers its metrics in METRICS, which
-the command line, the viewer, the documentation and the tests read.
+Every module of `hexmend.quality.metrics` is imported here and registers its metrics in METRICS, which the command line,
+the viewer, the documentation and the tests read.
 """
 
 import importlib
@@ -11,8 +11,7 @@ from hexmend.quality import metrics
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked_hexes, measure
 from hexmend.quality.mesh_quality import measure_against_target, metric_values, rank_worst, target_quality, worst_hexes
 from hexmend.quality.metric import METRICS, HexQuantity, Metric
-from hexmend.quality.metrics.q import Q
-from hexmend.quality.metrics.scaled_jacobian import SCALED_JACOBIAN
+from hexmend.quality.metrics.table import SCALED_JACOBIAN, Q
 from hexmend.quality.regressions import REGRESSION_KEYS, describe_regressions, regressions
 from hexmend.quality.summary import (
     SUMMARY_QUANTITIES,
@@ -25,9 +24,8 @@ from hexmend.quality.summary import (
     summarise_second_order,
 )
 
-_modules = [module.name for module in pkgutil.walk_packages(metrics.__path__, f"{metrics.__name__}.")]
-for _module in sorted(_modules, key=lambda name: name.count(".")):  # those of packages last
-    importlib.import_module(_module)
+for _module in pkgutil.iter_modules(metrics.__path__):
+    importlib.import_module(f"{metrics.__name__}.{_module.name}")
 
 __all__ = [
     "METRICS",

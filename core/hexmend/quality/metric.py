@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import as_points_and_hexes
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_entry_points
 
@@ -81,34 +80,6 @@ class Metric(HexQuantity):
     def register(self) -> Metric:
         """Add the metric to `METRICS` under its name and return it; raises `ValueError` if the name is taken."""
         return METRICS.add(self.name, self)
-
-
-def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
-    """Make a function that computes values by a kernel with several results.
-
-    Parameters
-    ----------
-    kernel : callable
-        Function of `hexmend.kernels`; its arguments are points, hexes and `rows` arrays (m,) for its results.
-    rows, row : int
-        Number of results, and the index of the one that is used.
-    worst : float
-        Replaces NaN, the result for a hex so large that the squares of its lengths overflow.
-
-    Returns
-    -------
-    callable
-        Function for `Metric.of`.
-    """
-
-    def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
-        points, hexes = as_points_and_hexes(points, hexes)
-        values = np.empty((rows, len(hexes)))
-        kernel(points, hexes, *values)
-        values[row][np.isnan(values[row])] = worst
-        return values[row]
-
-    return of
 
 
 #: Entry-point group through which other distributions add metrics; an entry names a `Metric`.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from hexmend.quality.summary import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
-from hexmend.terminal_text import FailedText, ShortestText, WorsenedText, count_phrase
+from hexmend.terminal_text import WorsenedText, count_phrase
 
 #: How a run ended, where the record's own word is not the clearest.
 _ENDED = {
@@ -88,14 +88,7 @@ LINES: tuple[Quantity, ...] = (
 _MAX_COLUMNS = 6
 
 
-def comparison_table(
-    title: str,
-    columns: Mapping[str, Mapping[str, Any]],
-    published: Mapping[str, Mapping[str, Any]] | None = None,
-    notes: Sequence[str] = (),
-    failed: Collection[str] = (),
-    shortest: str = "",
-) -> Table:
+def comparison_table(title: str, columns: Mapping[str, Mapping[str, Any]], notes: Sequence[str] = ()) -> Table:
     """Make a table with methods in columns and figures in rows, transposed if there are many methods.
 
     Parameters
@@ -103,27 +96,12 @@ def comparison_table(
     title : str
     columns : mapping
         Records by the heads of their columns, that of the initial mesh first.
-    published : mapping, optional
-        Figures of the thesis by column; each gets a row below ours.
     notes : sequence of str
-    failed : collection of str
-        Columns whose figures are marked as those of runs that did not arrive.
-    shortest : str
-        Column whose time is marked as the shortest.
     """
-    rows = []
-    for figure in LINES:
-        cells = [_cell(figure, record) for record in columns.values()]
-        cells = [FailedText(cell) if head in failed else cell for head, cell in zip(columns, cells, strict=True)]
-        if shortest and figure.key == "seconds":
-            where = list(columns).index(shortest)
-            cells[where] = ShortestText(cells[where])
-        rows.append([label(figure, columns.values()), *cells])
-        theirs = [(published or {}).get(head, {}) for head in columns]
-        if any(record.get(figure.key) is not None for record in theirs):
-            rows.append(["– thesis", *(figure.of(record) for record in theirs)])
-    table = Table(title, ["", *columns], rows, [*notes, *_fallen(columns), *_explained(columns.values())])
-    return table if len(columns) <= _MAX_COLUMNS or published else table.transposed
+    records = columns.values()
+    rows = [[label(figure, records), *(_cell(figure, record) for record in records)] for figure in LINES]
+    table = Table(title, ["", *columns], rows, [*notes, *explanations(columns)])
+    return table if len(columns) <= _MAX_COLUMNS else table.transposed
 
 
 def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
@@ -217,8 +195,9 @@ def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
     return [f"Worse than before: {'; '.join(worse)}."] if worse else []
 
 
-def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Return notes on runs that ended by a limit, by the user or by an error."""
+def explanations(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Return notes on figures that are worse than before, and on runs that ended by a limit, the user or an error."""
+    records = columns.values()
     ended = {record.get("outcome") for record in records}
     sentences = {
         "max-seconds": "Time limit: stopped at the time limit before it converged.",
@@ -230,4 +209,4 @@ def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
         sentences |= {KEPT_START: "Kept the start: no iteration was better than the initial mesh."}
         ended.add(KEPT_START)
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]
-    return [sentence for key, sentence in sentences.items() if key in ended] + failed
+    return _fallen(columns) + [sentence for key, sentence in sentences.items() if key in ended] + failed

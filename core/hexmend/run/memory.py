@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
 import re
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -213,10 +211,3 @@ def resident_mb() -> float:
     if kilobytes is None:
         raise OSError("the system has no /proc/self/status")
     return kilobytes / 1024
-
-
-def release_freed() -> None:
-    """Give memory that has been freed back to the system, where the C library (glibc) keeps it."""
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
-    if trim is not None:
-        trim(0)

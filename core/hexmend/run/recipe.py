@@ -122,9 +122,9 @@ def to_toml(recipe: Recipe) -> str:
     """Return the recipe as TOML text with all values."""
     import tomli_w
 
-    stages = [stage.values() for stage in recipe.stages]
-    motion = {"motion": recipe.rules.values()} if recipe.rules else {}
-    return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, **motion, "stage": stages})
+    values = recipe.values()
+    stages = values.pop("stages")
+    return _HEAD + tomli_w.dumps({"format": FORMAT, **values, "stage": stages})
 
 
 def from_toml(text: str) -> Recipe:

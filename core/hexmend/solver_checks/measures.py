@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.finite_volume import CellGeometry, FaceQuality, cell_geometry, face_quality
 from hexmend.quality.finite_volume.geometry import chunks, cross, divide, dot, in_unit, norm
@@ -33,11 +33,8 @@ class QuadShapes:
         Of faces and cross-sections; +inf for a quad without area.
     parallel_deviation : (m,) float64
         Largest angle of two opposite edges in degrees, of faces and cross-sections.
-    max_angle, min_angle : (m,) float64
-        Largest and smallest angle of two adjacent edges in degrees, the first of faces and cross-sections, the second
-        of faces alone.
-    max_face_angle : (m,) float64
-        Largest angle of two adjacent edges in degrees, of faces alone.
+    max_angle : (m,) float64
+        Largest angle of two adjacent edges in degrees, of faces and cross-sections.
     warping_factor : (m,) float64
         Of faces: difference of the heights of an edge's ends, along the face's normal, over the root of its area.
     corner_cosine : (m,) float64
@@ -47,8 +44,6 @@ class QuadShapes:
     aspect_ratio: np.ndarray
     parallel_deviation: np.ndarray
     max_angle: np.ndarray
-    min_angle: np.ndarray
-    max_face_angle: np.ndarray
     warping_factor: np.ndarray
     corner_cosine: np.ndarray
 
@@ -66,20 +61,17 @@ def quad_shapes(points: np.ndarray, hexes: np.ndarray) -> QuadShapes:
     QuadShapes
     """
     x, _ = in_unit(points, hexes)
-    values = np.empty((7, len(hexes)))
+    values = np.empty((5, len(hexes)))
     for part in chunks(len(hexes)):
         corners = x[:, hexes[part].T]
         faces = corners[:, FACES]
         sections = (corners[:, _ENDS[:, 0]] + corners[:, _ENDS[:, 1]]) / 2
         quads = np.concatenate([faces, sections], axis=1)  # (3, 9, 4, k)
         edges = np.roll(quads, -1, axis=2) - quads
-        angles, face_angles = _corner_angles(edges), _corner_angles(edges[:, :6])
         values[:, part] = [
             _aspect_ratios(quads).max(axis=0),
             _parallel_deviations(edges).max(axis=0),
-            angles.max(axis=(0, 1)),
-            face_angles.min(axis=(0, 1)),
-            face_angles.max(axis=(0, 1)),
+            _corner_angles(edges).max(axis=(0, 1)),
             _warping_factors(faces).max(axis=0),
             _corner_cosines(edges[:, :6]).min(axis=0),
         ]
@@ -164,25 +156,10 @@ class Measures:
         return quad_shapes(self.mesh.points, self.mesh.hexes)
 
     @cached_property
-    def volumes(self) -> np.ndarray:
-        """Volumes of the hexes, (m,) float64, in the cube of the mesh's unit of length."""
-        return self.metric("volume")
-
-    @cached_property
     def characteristic_lengths(self) -> np.ndarray:
         """Volume over the largest face of each hex, (m,) float64, in the mesh's unit of length."""
         largest = norm(self.cells.face_areas).max(axis=0)
         return divide(self.cells.volumes, largest, 0.0) * self.cells.unit
-
-    @cached_property
-    def edge_ratios(self) -> np.ndarray:
-        """Longest over shortest edge of each hex, (m,) float64; +inf with an edge of no length."""
-        ratios = np.empty(self.mesh.n_hexes)
-        for part in chunks(len(ratios)):
-            x = self.cells.points[:, self.mesh.hexes[part].T]
-            lengths = norm(x[:, EDGES[:, 1]] - x[:, EDGES[:, 0]])
-            ratios[part] = divide(lengths.max(axis=0), lengths.min(axis=0), np.inf)
-        return ratios
 
     @property
     def cell_volumes(self) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from operator import attrgetter
+from operator import attrgetter, methodcaller
 
 import numpy as np
 
@@ -103,9 +103,10 @@ def quantity(name: str, where: str = "") -> Callable[[Measures], np.ndarray]:
     Parameters
     ----------
     name : str
-        In `QUANTITIES`, or an attribute of `Measures`, with dots.
+        In `QUANTITIES`, an attribute of `Measures`, with dots, or "metric" and the name of a quality metric.
     where : str
         Attribute of `Measures` that marks the faces or hexes to be taken; "" for all.
     """
-    of = QUANTITIES.get(name) or attrgetter(name)
+    _, is_metric, metric = name.rpartition("metric ")
+    of = methodcaller("metric", metric) if is_metric else QUANTITIES.get(name) or attrgetter(name)
     return (lambda measures: of(measures)[getattr(measures, where)]) if where else of

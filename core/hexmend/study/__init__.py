@@ -1,1 +1,1 @@
-"""Studies: comparison of methods, batches, benchmarks, the experiments of the thesis and its claims."""
+"""Studies: comparison of methods on one mesh, and recipes on many meshes."""

@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import declared, from_strings
+from hexmend.parameters import declared, from_strings, suggestion
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe, supplied_recipes
 from hexmend.smoothers import METHODS, Smoother
 
 
 def split_names(text: str) -> list[str]:
-    """Split names at commas; the path of an existing recipe is one name even if it contains commas.
-
-    The name of a recipe that comes with Hexmend is replaced by the path of its file.
+    """Split names at commas; the name of a recipe that comes with Hexmend is replaced by the path of its file.
 
     >>> split_names("laplacian, mend")
     ['laplacian', 'mend']
     """
-    names: list[str] = []
-    parts = text.split(",")
-    while parts:
-        paths = {end: ",".join(parts[:end]).strip() for end in range(len(parts), 1, -1)}
-        end = next((end for end, path in paths.items() if path.endswith(".toml") and Path(path).is_file()), 1)
-        names.append(",".join(parts[:end]).strip())
-        del parts[:end]
+    names = [name.strip() for name in text.split(",")]
     files = {} if all(name in METHODS for name in names) else supplied_recipes()
     return [str(files.get(name, name)) if name not in METHODS else name for name in names]
 
@@ -76,8 +66,8 @@ def parse_methods(
         key = key.replace("-", "_")
         owners = [owner] if dot else [name for name in keys if key in keys[name]]
         if not owners:
-            near = difflib.get_close_matches(key, {known for names in keys.values() for known in names}, n=1)
-            hint = f": did you mean {near[0]}?" if near else ""
+            near = suggestion(key, [known for names in keys.values() for known in names]).rstrip()
+            hint = f": {near}" if near else ""
             raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
         for name in owners:
             words[name][key] = settings[setting]

@@ -17,7 +17,7 @@ from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study import table_row as one_row
 from hexmend.study.compare import compare
-from hexmend.study.method_spec import parse_methods, split_names
+from hexmend.study.method_spec import parse_methods
 from hexmend.study.table_row import BINS
 
 #: Keys of each row in comparison.json in addition to the figures of a summary.
@@ -212,13 +212,3 @@ def test_rules_of_motion_hold_for_methods_and_recipes(mesh, tmp_path):
     assert (method.points[some] == mesh.points[some]).all()
     assert not (method.points[others] == mesh.points[others]).all()
     assert (chain.points[inside] == mesh.points[inside]).all()
-
-
-def test_a_recipe_in_a_folder_with_commas_is_one_method(tmp_path, monkeypatch):
-    (tmp_path / "a, b").mkdir()
-    path = tmp_path / "a, b" / "c,d.toml"
-    write_recipe(path, Recipe.of(METHODS["laplacian"]()))
-    monkeypatch.chdir(tmp_path)
-    assert split_names(f"mend, {path},laplacian") == ["mend", str(path), "laplacian"]
-    assert split_names("a, b/c,d.toml,getme") == ["a, b/c,d.toml", "getme"]
-    assert split_names("a, b/e.toml") == ["a", "b/e.toml"]

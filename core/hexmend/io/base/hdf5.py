@@ -33,9 +33,6 @@ _FAILURES = OSError, RuntimeError, ValueError, LookupError, *_WRONG_KIND
 #: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
 _LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
 
-#: Bytes of the name of a link that are kept for messages.
-_LONGEST_TITLE = 400
-
 
 def read_content(reader: str, path: Path) -> Content:
     """Read a file in a subprocess, which the HDF5 library may crash on a damaged file.
@@ -116,32 +113,12 @@ def _check_self_contained(path: Path, file: object) -> None:
 
 
 def _external_links(file: object) -> Iterator[tuple[bytes, str]]:
-    """Yield the names of links that refer to another file, and how they do.
-
-    The library would look up each link from the root: in a time that is quadratic in the depth of groups.
-    """
-    import h5py
-
-    seen, groups = set(), [(b"", file.id, b"/")]  # name, group and link in it
-    while groups:
-        prefix, parent, name = groups.pop()
-        group = h5py.h5g.open(parent, name)
-        address = h5py.h5o.get_info(group).addr
-        if address in seen:
-            continue
-        seen.add(address)
-        links: list[tuple[bytes, int]] = []
-
-        def visit(name: bytes, link: object, links: list[tuple[bytes, int]] = links) -> None:
-            links.append((name, link.type))  # without calls of the library, whose errors would be lost here
-
-        group.links.iterate(visit, info=True)
-        for name, kind in links:
-            title = (prefix + name)[:_LONGEST_TITLE]
-            if problem := _external(group, name, kind):
-                yield title, problem
-            elif kind == h5py.h5l.TYPE_HARD and h5py.h5o.get_info(group, name).type == h5py.h5o.TYPE_GROUP:
-                groups.append((title + b"/", group, name))
+    """Yield the names of links that refer to another file, and how they do."""
+    links: list[tuple[bytes, int]] = []  # without calls of the library, whose errors would be lost in its own call
+    file.id.links.visit(lambda name, link: links.append((name, link.type)), info=True)
+    for name, kind in links:
+        if problem := _external(file.id, name, kind):
+            yield name, problem
 
 
 def _external(group: object, name: bytes, kind: int) -> str:

@@ -58,16 +58,37 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
         if twice.size:
             number = int(in_order[twice[0]])
             raise FileError(path, f"{label} {number} is given twice", "Give every one a number of its own.")
-        if n == 0:
-            found, wrong = np.zeros(np.shape(wanted), np.int64), np.ones(np.shape(wanted), bool)
-        else:
-            at = np.minimum(np.searchsorted(in_order, wanted), n - 1)
-            found, wrong = order[at], in_order[at] != wanted
+        found, there = lookup(ids, wanted, order)
+        wrong = ~there
     if np.any(wrong):
         number = int(np.asarray(wanted)[wrong].flat[0])
         problem = f"{label} {number} is used, but the file has no such {label}"
         raise FileError(path, problem, "Add it, or correct what uses it.")
     return found
+
+
+def lookup(ids: np.ndarray, wanted: np.ndarray, order: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Look up ids, whether they are there or not.
+
+    Parameters
+    ----------
+    ids : (n,) int64
+        In any order.
+    wanted : (...) int
+    order : (n,) int64, optional
+        Their ascending order, if it is known.
+
+    Returns
+    -------
+    index : (...) int64
+    there : (...) bool
+        False where an id is not there, and the index means nothing.
+    """
+    if not len(ids):
+        return np.zeros(np.shape(wanted), np.int64), np.zeros(np.shape(wanted), bool)
+    order = np.argsort(ids, kind="stable") if order is None else order
+    index = order[np.minimum(np.searchsorted(ids, wanted, sorter=order), len(ids) - 1)]
+    return index, ids[index] == wanted
 
 
 def _rise_by_one(ids: np.ndarray) -> bool:

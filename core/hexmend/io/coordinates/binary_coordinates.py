@@ -15,6 +15,7 @@ import numpy as np
 from hexmend.io.base import hdf5
 from hexmend.io.base.hdf5 import writable_file
 from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.storage.atomic import AtomicFiles
 
 #: Note for coordinates of 32 bits.
 SINGLE_PRECISION = "The file stores coordinates as 32-bit numbers: the new ones are rounded to 7 digits."
@@ -77,9 +78,9 @@ class BinaryCoordinates:
     pieces: tuple[BinaryPiece, ...]
     notes: tuple[str, ...] = ()
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        changed = ~(points == self.points)
+        changed, file = ~(points == self.points), files.add(target)
         shutil.copyfile(self.path, file)
         check_columns(changed, [piece.columns for piece in self.pieces])
         with open(file, "r+b") as out, mmap.mmap(out.fileno(), 0) as data:
@@ -147,9 +148,9 @@ class HDF5Coordinates:
     datasets: list[tuple[str, np.dtype, slice]]
     notes: tuple[str, ...] = ()
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        changed = ~(points == self.points)
+        changed, file = ~(points == self.points), files.add(target)
         check_columns(changed, [columns for *_, columns in self.datasets])
         shutil.copyfile(self.path, file)
         with hdf5.library_errors(self.path), writable_file(file, "r+") as out:

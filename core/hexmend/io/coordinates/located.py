@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 import numpy as np
 
@@ -21,15 +21,15 @@ class LocatedCoordinates(Protocol):
 
     points: np.ndarray
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write a copy of the file in which coordinates that differ from `points` are replaced.
 
         Parameters
         ----------
-        file : Path
-            The file to write: a temporary one, which becomes the target.
+        files : AtomicFiles
+            Takes the target, and files beside it that hold coordinates too. A case is written without it.
         target : Path
-            Path that the user has named, for files beside it.
+            Path that the user has named.
         points : (n, 3) float64
             New coordinates.
 
@@ -42,22 +42,6 @@ class LocatedCoordinates(Protocol):
         ------
         CoordinatesError
             Where the file cannot hold these points.
-        """
-
-
-@runtime_checkable
-class LocatedFiles(Protocol):
-    """Coordinates in several files, which are replaced together."""
-
-    def write_files(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
-        """Write a copy of all files that hold coordinates; else as `LocatedCoordinates.write`.
-
-        Parameters
-        ----------
-        files : AtomicFiles
-            Takes the target and the files beside it.
-        target : Path
-        points : (n, 3) float64
         """
 
 

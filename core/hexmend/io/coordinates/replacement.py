@@ -15,7 +15,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import Capability, Format
-from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates, LocatedFiles
+from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
 from hexmend.io.storage.atomic import atomic_files
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
@@ -169,13 +169,8 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     located = _located(original, format)
     in_place = is_same_mesh(format, path, original.path)
     turned = (_TURNED,) if original.mesh.renumbered else ()
-    if format.place:  # a folder, in which the format replaces files itself
-        return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
     with atomic_files() as files:
-        if isinstance(located, LocatedFiles):
-            notes = located.write_files(files, path, mesh.points)
-        else:
-            notes = located.write(files.add(path), path, mesh.points)
+        notes = located.write(files, path, mesh.points)
     return Written(True, (*notes, *turned), in_place)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -31,14 +30,30 @@ _COMMENT = re.compile(rb"%[^\n]*")
 @dataclass(eq=False)
 class _Zone:
     points: np.ndarray | None = None
+    place: tuple[int, int] = (0, 0)  # byte range of the points
     cells: dict[str, np.ndarray] | None = None
     markers: list[tuple[str, dict[str, np.ndarray]]] = field(default_factory=list)
 
 
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of boundary cells."""
+    cursor = ByteCursor(path, blanked(read_text_bytes(path), b"%"))
+    return mesh_of(path, _merge_zones(cursor, _zones(cursor)))
+
+
+def locate(path: Path) -> TextCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
     data = read_text_bytes(path)
     cursor = ByteCursor(path, blanked(data, b"%"))
+    points, first, last = [], [], []
+    for zone in _zones(cursor):
+        points.append(zone.points)
+        for ranges, found in zip((first, last), word_ranges(cursor.data, *zone.place), strict=True):
+            ranges.append(found.reshape(len(zone.points), -1)[:, :3])
+    return TextCoordinates(data, np.concatenate(points), fields_of_words(np.concatenate(first), np.concatenate(last)))
+
+
+def _zones(cursor: ByteCursor) -> list[_Zone]:
     keys = list(_KEY.finditer(cursor.data))
     zones = [_Zone()]
     announced, tag = 1, ""
@@ -57,6 +72,7 @@ def read(path: Path) -> Mesh:
         elif key == "NELEM":
             zones[-1].cells = _read_cells(cursor, end, cursor.parse_count(value, "NELEM"), "NELEM")
         elif key == "NPOIN":
+            zones[-1].place = cursor.pos, end
             zones[-1].points = _read_points(cursor, end, cursor.parse_count((value.split() or [""])[0], "NPOIN"))
         elif key == "MARKER_TAG":
             tag = value
@@ -67,7 +83,7 @@ def read(path: Path) -> Mesh:
         raise cursor.error("has neither NELEM= nor NPOIN=", check_suffix("an SU2 file"))
     if len(zones) != announced:
         raise cursor.error(f"holds {len(zones)} zones: expected {announced} as NZONE says")
-    return mesh_of(path, _merge_zones(cursor, zones))
+    return zones
 
 
 def _merge_zones(cursor: ByteCursor, zones: list[_Zone]) -> Content:
@@ -131,23 +147,6 @@ def _read_cells(cursor: ByteCursor, end: int, count: int, name: str) -> dict[str
             return found
     types = ", ".join(map(str, KIND_BY_TYPE))
     raise cursor.error(f"{name} holds {values.size} numbers, which are not {count} elements of the types {types}")
-
-
-def locate(path: Path) -> TextCoordinates:
-    """Find the coordinates of a file that the reader has accepted."""
-    data = read_text_bytes(path)
-    cursor = ByteCursor(path, blanked(data, b"%"))
-    keys = [*_KEY.finditer(cursor.data), None]
-    first, last, points = [], [], []
-    for found, following in pairwise(keys):
-        if found[1].upper() == b"NPOIN":
-            count = cursor.parse_count(found[2].split()[0].decode(), "NPOIN")
-            cursor.pos = min(found.end() + 1, len(data))
-            begin, end = word_ranges(cursor.data, cursor.pos, following.start() if following else len(data))
-            points.append(_read_points(cursor, following.start() if following else len(data), count))
-            first.append(begin.reshape(count, -1)[:, :3])
-            last.append(end.reshape(count, -1)[:, :3])
-    return TextCoordinates(data, np.concatenate(points), fields_of_words(np.concatenate(first), np.concatenate(last)))
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from hexmend.io.formats.vtk.grid import Grid
+from hexmend.io.formats.vtk.merge_grids import join_grids
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -64,7 +65,11 @@ def slice_of(files: Sequence[SlicedFile], part: int, count: int) -> GridSlice:
         types, start = np.asarray(grid.types).astype(np.uint8), np.asarray(grid.start, np.int64)
         cells_alone = {"types": types, "start": start, "nodes": numbers}
         found.append(GridSlice(**vars(grid) | cells_alone, node_ids=node_ids, cell_ids=cell_ids))
-    return found[0] if len(found) == 1 else _joined(found)
+    if len(found) == 1:
+        return found[0]
+    node_ids, cell_ids = (np.concatenate([getattr(one, name) for one in found]) for name in ("node_ids", "cell_ids"))
+    grid, _ = join_grids(found, [one.nodes for one in found])
+    return GridSlice(**vars(grid), node_ids=node_ids, cell_ids=cell_ids)
 
 
 def _ranges(sizes: Sequence[int], part: int, count: int) -> list[slice]:
@@ -77,18 +82,3 @@ def _ranges(sizes: Sequence[int], part: int, count: int) -> list[slice]:
         else slice(0, 0)
         for begin, size in zip(begins[:-1].tolist(), sizes, strict=True)
     ]
-
-
-def _joined(parts: Sequence[GridSlice]) -> GridSlice:
-    starts = np.concatenate([[0], np.cumsum([part.start[-1] for part in parts])])
-
-    def data(which: str) -> dict[str, np.ndarray]:
-        names = getattr(parts[0], which)
-        return {name: np.concatenate([getattr(part, which)[name] for part in parts]) for name in names}
-
-    def rows(name: str) -> np.ndarray:
-        return np.concatenate([getattr(part, name) for part in parts])
-
-    start = np.concatenate([[0], *(part.start[1:] + begin for part, begin in zip(parts, starts, strict=False))])
-    arrays = {name: rows(name) for name in ("node_ids", "points", "cell_ids", "types", "nodes")}
-    return GridSlice(start=start, node_data=data("node_data"), cell_data=data("cell_data"), **arrays)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.storage.temporary_files import backup_path, create_file, flush_file, flush_folder, temporary_path
+from hexmend.io.storage.temporary_files import create_file, flush_file, flush_folder, temporary_path
 from hexmend.signal_guard import uninterrupted
 
 
@@ -141,10 +141,10 @@ class AtomicFiles:
         for one in self._replacements:
             if one.target == target:
                 return one.temporary
-        temporary, backup = temporary_path(target), None if mode is None else backup_path(target)
+        temporary, backup = temporary_path(target), None if mode is None else temporary_path(target)
         self._replacements.append(_Replacement(path, target, temporary, backup))  # to be removed if creation fails
         with _named(path):
-            create_file(temporary, target, mode)
+            create_file(temporary, mode)
         self._named |= dict.fromkeys((path, target, temporary), path)
         return temporary
 

@@ -1,9 +1,6 @@
-"""Temporary files in the folder of the file that they will replace, and removal of abandoned ones.
+"""Temporary files in the folder of the file that they will replace, and folders that appear complete or not at all.
 
-The name consists of checksums of the host and of the target, the number of the writing process, and a random number:
-`.hexmend-3f0c5e6f7a8b-4711-9a1b2c3d.vtu`. A file of this host whose process has ended is abandoned.
-
-Folders that appear complete or not at all.
+Such a name is `.hexmend-3f0c5e6f9a1b2c3d.vtu`.
 """
 
 from __future__ import annotations
@@ -11,7 +8,6 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -26,34 +22,23 @@ _LONGEST_SUFFIX = 16
 
 
 def temporary_path(target: Path) -> Path:
-    """Choose the name of a temporary file, with the suffix of the target.
-
-    Parameters
-    ----------
-    target : Path
-        The file that it will replace.
-    """
-    return target.with_name(f"{_name_start(target)}{os.getpid()}-{_random_end(target)}")
-
-
-def backup_path(target: Path) -> Path:
-    """Choose the name of a file for the old content of a target; it never counts as abandoned.
+    """Choose the name of a file beside a target, for its new or its old content.
 
     Parameters
     ----------
     target : Path
     """
-    return target.with_name(f".hexmend-backup-{_random_end(target)}")
+    suffix = target.suffix if len(target.suffix) <= _LONGEST_SUFFIX else ""
+    return target.with_name(f".hexmend-{os.urandom(8).hex()}{suffix}")
 
 
-def create_file(path: Path, target: Path, mode: int | None) -> None:
-    """Create an empty temporary file, and remove abandoned ones of the same target.
+def create_file(path: Path, mode: int | None) -> None:
+    """Create an empty temporary file.
 
     Parameters
     ----------
     path : Path
         As of `temporary_path`.
-    target : Path
     mode : int or None
         Permissions; those of the umask if None.
 
@@ -62,43 +47,9 @@ def create_file(path: Path, target: Path, mode: int | None) -> None:
     OSError
         Where the folder is not writable.
     """
-    _remove_abandoned(target)
     with _opened(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666 if mode is None else 0o600) as handle:
         if mode is not None and hasattr(os, "fchmod"):
             os.fchmod(handle, mode)
-
-
-def _remove_abandoned(target: Path) -> None:
-    """Remove temporary files of a target whose processes have ended; errors are ignored."""
-    start = _name_start(target)
-    with suppress(OSError):
-        for name in os.listdir(target.parent):
-            number = name.removeprefix(start).partition("-")[0]
-            if name.startswith(start) and number.isdecimal() and not _runs(int(number)):
-                target.with_name(name).unlink(missing_ok=True)
-
-
-def _runs(process: int) -> bool:
-    """Return False if a process of this number has certainly ended."""
-    if os.name == "nt":  # a signal would end it
-        return True
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except OSError:  # of another user
-        return True
-    return True
-
-
-def _name_start(target: Path) -> str:
-    host = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
-    return f".hexmend-{zlib.crc32(host.encode()) & 0xFFFF:04x}{zlib.crc32(os.fsencode(target.name)):08x}-"
-
-
-def _random_end(target: Path) -> str:
-    suffix = target.suffix if len(target.suffix) <= _LONGEST_SUFFIX else ""
-    return f"{os.urandom(4).hex()}{suffix}"
 
 
 @contextmanager

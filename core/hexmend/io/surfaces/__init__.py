@@ -1,11 +1,9 @@
-"""Reading of surface files; each module of a format registers it in SURFACE_FORMATS.
+"""Reading of surface files.
 
->>> sorted(SURFACE_FORMATS)
-['obj', 'ply', 'stl', 'vtk', 'vtp']
+>>> ", ".join(SURFACE_FORMATS)
+'.stl, .obj, .ply, .vtp, .vtk'
 """
 
-from hexmend.io.surfaces import obj, ply, stl, vtk_legacy, vtp  # noqa: F401  (registers the formats)
-from hexmend.io.surfaces.format import SURFACE_FORMATS, SurfaceFormat
-from hexmend.io.surfaces.read import read_surface
+from hexmend.io.surfaces.read import SURFACE_FORMATS, read_surface
 
-__all__ = ["SURFACE_FORMATS", "SurfaceFormat", "read_surface"]
+__all__ = ["SURFACE_FORMATS", "read_surface"]

@@ -1,4 +1,4 @@
-"""File formats of surfaces and their registry, and helpers of their readers."""
+"""Content of a surface file, and helpers of the readers of all formats."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.registry import Registry
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,37 +25,6 @@ class Polygons:
 
     points: np.ndarray
     faces: list[np.ndarray]
-
-
-@dataclass(frozen=True)
-class SurfaceFormat:
-    """File format of surfaces.
-
-    Parameters
-    ----------
-    name : str
-        Key in SURFACE_FORMATS.
-    title : str
-        Name in messages.
-    suffixes : tuple of str
-        Lower case, with the dot.
-    read : callable
-        read(path) returns Polygons; raises FileError, and OSError where the file system fails.
-    """
-
-    name: str
-    title: str
-    suffixes: tuple[str, ...]
-    read: Callable[[Path], Polygons]
-
-
-#: All formats by name.
-SURFACE_FORMATS: Registry[SurfaceFormat] = Registry("surface format")
-
-
-def register(format: SurfaceFormat) -> SurfaceFormat:
-    """Add a format to SURFACE_FORMATS under its name."""
-    return SURFACE_FORMATS.add(format.name, format)
 
 
 def parse_surface(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:

@@ -10,7 +10,7 @@ import io
 import re
 from pathlib import Path
 
-from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane, register
+from hexmend.io.surfaces.format import Polygons, parse_surface, polygons_from_meshlane
 
 
 def read(path: Path) -> Polygons:
@@ -33,6 +33,3 @@ def _normalised(text: str) -> str:
             nodes = " ".join(rest)
             lines.append("f " + re.sub(r"(?<!\S)-(\d+)\S*", lambda found, n=count: str(n + 1 - int(found[1])), nodes))
     return "\n".join(lines)
-
-
-register(SurfaceFormat(name="obj", title="OBJ", suffixes=(".obj",), read=read))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.remedies import check_suffix
-from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane, register
+from hexmend.io.surfaces.format import Polygons, parse_surface, polygons_from_meshlane
 
 _END = b"end_header"
 
@@ -32,6 +32,3 @@ def read(path: Path) -> Polygons:
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]
     return parse_surface(path, "PLY", lambda: polygons_from_meshlane(ply.read(io.BytesIO(head + end + rest))))
-
-
-register(SurfaceFormat(name="ply", title="PLY", suffixes=(".ply",), read=read))

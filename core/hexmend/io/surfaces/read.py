@@ -8,33 +8,33 @@ Meshes whose boundary slides on the surface of a file.
 from __future__ import annotations
 
 import os
-from functools import reduce
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.arrays import bounds, cross_products, extent, mask, row_norms
+from hexmend.arrays import cross_products, extent, mask, row_norms
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
-from hexmend.kernels import closest_point, incidence
+from hexmend.io.surfaces import obj, ply, stl, vtk
+from hexmend.io.surfaces.format import Polygons
+from hexmend.kernels import closest_point
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.close_pairs import close_pairs
 from hexmend.mesh.topology.components import components
 
+#: Title of each format, and its reader, by suffix.
+SURFACE_FORMATS: dict[str, tuple[str, Callable[[Path], Polygons]]] = {
+    ".stl": ("STL", stl.read),
+    ".obj": ("OBJ", obj.read),
+    ".ply": ("PLY", ply.read),
+    ".vtp": ("VTP", vtk.read),
+    ".vtk": ("VTK legacy", vtk.read_legacy),
+}
 #: Points at a smaller distance, relative to the diagonal of the bounding box, are merged.
 _MERGE_TOLERANCE = 1e-9
-#: Largest number of a cell along each axis, of the cells that the places of points on a curve tell apart.
-_CURVE_CELLS = 2**21 - 1
-_SPREAD = (
-    (32, 0x001F00000000FFFF),
-    (16, 0x001F0000FF0000FF),
-    (8, 0x100F00F00F00F00F),
-    (4, 0x10C30C30C30C30C3),
-    (2, 0x1249249249249249),
-)
 
 
 def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -48,8 +48,7 @@ def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.
     Returns
     -------
     points : (j, 3) float64
-        Neighbours are numbered in succession for the most part, whatever the order in the file, so that searches of
-        the surface find them in the processor's cache.
+        Different points, in the order of the file.
     faces : (k, w) int
         Faces of these points.
     """
@@ -58,7 +57,8 @@ def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.
         return points[:0], faces
     if not used.all():
         points, faces = points[used], (np.cumsum(used) - 1)[faces]
-    points, group = _different_points(points)
+    group = closest_point.numbers_of_different_points(points)
+    points = points[np.unique(group, return_index=True)[1]]
     distance = _MERGE_TOLERANCE * float(np.linalg.norm(extent(points)))
     pairs = close_pairs(points, distance)
     if len(pairs):
@@ -66,32 +66,6 @@ def merge_points(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.
         _, first = np.unique(merged, return_index=True)
         points, group = points[first], merged[group]
     return points, group.take(faces)
-
-
-def _different_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the different ones of points (n, 3), neighbours in succession, and the number of each point there."""
-    number = closest_point.numbers_of_different_points(points)
-    first = np.empty(number.max() + 1, dtype=np.int64)
-    first[number[::-1]] = np.arange(len(points))[::-1]
-    points = points.take(first, axis=0)
-    order = np.argsort(_places_on_curve(points), kind="stable")
-    place = np.empty(len(points), dtype=np.int64)
-    place[order] = np.arange(len(points))
-    return points.take(order, axis=0), place.take(number)
-
-
-def _places_on_curve(points: np.ndarray) -> np.ndarray:
-    """Places of points (n, 3) on a curve that fills their box, the Z-order of Morton (1966), (n,) uint64."""
-    low, high = bounds(points)
-    size = float((high - low).max())
-    cells = ((points - low) / (size or 1.0) * _CURVE_CELLS).astype(np.uint64)
-    code = np.zeros(len(points), dtype=np.uint64)
-    for axis in range(3):
-        bits = cells[:, axis]
-        for shift, kept in _SPREAD:  # two zeros after each bit
-            bits = (bits | (bits << np.uint64(shift))) & np.uint64(kept)
-        code |= bits << np.uint64(axis)
-    return code
 
 
 #: Smallest area, relative to the square of the extent.
@@ -119,13 +93,13 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     """
     path = Path(path)
     check_readable(path, "a file of a surface")
-    format = next((known for known in SURFACE_FORMATS.values() if path.suffix.lower() in known.suffixes), None)
-    if format is None:
-        titles = [f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes]
+    _, read = SURFACE_FORMATS.get(path.suffix.lower(), ("", None))
+    if read is None:
+        titles = [f"{suffix} ({title})" for suffix, (title, _) in SURFACE_FORMATS.items()]
         remedy = f"Hexmend reads {', '.join(titles)}."
         raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", remedy)
     with reading(path, "Choose a coarser surface."):
-        polygons = format.read(path)
+        polygons = read(path)
     return _to_surface(path, polygons)
 
 
@@ -147,7 +121,7 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     if not _has_area(points, faces):
         problem = "holds no surface: it has no triangle or quad with an area"
         raise FileError(path, f"{problem}{_far_point(polygons.points)}", "Choose a file with the surface of the body.")
-    return SkinSurface(points, _in_order_of_points(faces.astype(np.int32), len(points)), path.name)
+    return SkinSurface(points, faces.astype(np.int32), path.name)
 
 
 def _far_point(points: np.ndarray) -> str:
@@ -159,12 +133,6 @@ def _far_point(points: np.ndarray) -> str:
     if not np.median(away) < _MIN_AREA * away[far]:
         return ""
     return f" beside point {far} (counted from 0), which is far from the others at {points[far].tolist()}"
-
-
-def _in_order_of_points(faces: np.ndarray, n: int) -> np.ndarray:
-    """Sort faces (k, w) int32 by their lowest nodes: neighbours follow each other then, as those nodes do."""
-    lowest = reduce(np.minimum, (faces[:, corner] for corner in range(faces.shape[1])))
-    return faces.take(incidence.grouped(lowest, n)[1], axis=0)
 
 
 def _count_distinct(rows: np.ndarray) -> np.ndarray:

@@ -21,23 +21,15 @@ _FIELDS = {"non_orthogonality": -1, "skewness": -1, "weight": 1, "volume_ratio":
 _LAST: WeakKeyDictionary[ElementQuality, Mapping[str, np.ndarray]] = WeakKeyDictionary()
 
 
-def of_hexes(field: str) -> Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]:
-    """Make the function for `Metric.of` of a field of `FaceQuality`; neighbours are those among the given hexes."""
-
-    def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
-        points, hexes = as_points_and_hexes(points, hexes)
-        return _values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
-
-    return of
+def of_hexes(field: str, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of`; neighbours are those among the hexes."""
+    points, hexes = as_points_and_hexes(points, hexes)
+    return _values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
 
 
-def of_mesh(field: str) -> Callable[[Mesh, ElementQuality], np.ndarray]:
-    """Make the function for `Metric.of_mesh` of a field of `FaceQuality`, which uses the mesh's topology."""
-
-    def of(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-        return _values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
-
-    return of
+def of_mesh(field: str, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of_mesh`, by the mesh's topology."""
+    return _values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
 
 
 def _values(

@@ -1,1 +1,1 @@
-"""Quality metrics, one a file; each registers itself in METRICS."""
+"""Quality metrics: `metrics.json` declares Hexmend's own; every module registers what it defines in METRICS."""

@@ -26,63 +26,59 @@ CONNECT_SECONDS = 30
 RETRIES = 2
 
 
-class Cluster:
-    """Runs tasks on the workers of a scheduler; all of them see the meshes under the same paths.
+def check_installed() -> None:
+    """Raise `ParameterError` if `distributed` of Dask is not installed."""
+    try:
+        import distributed  # noqa: F401
+    except ImportError:
+        raise ParameterError(f"--scheduler needs Dask: {install_hint('study')}") from None
+
+
+def cluster_answers(tasks: Sequence[Task], address: str) -> Generator[tuple[Task, dict[str, Any]]]:
+    """Run tasks on the workers of a scheduler, and yield each with its answer when it is done.
+
+    All workers see the meshes under the same paths. Closing the generator ends running tasks.
 
     Parameters
     ----------
+    tasks : sequence of Task
     address : str
         Address of the scheduler, such as tcp://host:8786.
 
     Raises
     ------
-    ParameterError
-        If `distributed` of Dask is not installed.
+    HexmendError
+        If there is no such scheduler, or it ends.
     """
+    from distributed import as_completed
 
-    def __init__(self, address: str):
+    with _quiet(), _client(address) as client:
+        run = uuid4().hex  # tasks of another study must not share keys with these
+        running = {
+            client.submit(
+                run_on_worker, asdict(task), key=f"hexmend-{task.key}-{run}", retries=RETRIES, pure=False
+            ): task
+            for task in tasks
+        }
         try:
-            import distributed  # noqa: F401
-        except ImportError:
-            raise ParameterError(f"--scheduler needs Dask: {install_hint('study')}") from None
-        self._address = address
+            for future in as_completed(list(running), loop=client.loop):
+                row = _answer(address, future)
+                future.release()  # else Dask repeats the task if the worker that has the answer dies
+                yield running.pop(future), row
+        finally:
+            client.cancel(list(running), force=True)
 
-    def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:
-        """Yield each task with its answer when it is done. Closing the generator ends running tasks.
 
-        Raises
-        ------
-        HexmendError
-            If there is no such scheduler, or it ends.
-        """
-        from distributed import as_completed
+def _client(address: str) -> Client:
+    from distributed import Client
 
-        with _quiet(), self._client() as client:
-            run = uuid4().hex  # tasks of another study must not share keys with these
-            running = {
-                client.submit(
-                    run_on_worker, asdict(task), key=f"hexmend-{task.key}-{run}", retries=RETRIES, pure=False
-                ): task
-                for task in tasks
-            }
-            try:
-                for future in as_completed(list(running), loop=client.loop):
-                    row = _answer(self._address, future)
-                    future.release()  # else Dask repeats the task if the worker that has the answer dies
-                    yield running.pop(future), row
-            finally:
-                client.cancel(list(running), force=True)
-
-    def _client(self) -> Client:
-        from distributed import Client
-
-        try:
-            return Client(self._address, timeout=CONNECT_SECONDS, set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise HexmendError(
-                f"no scheduler answers at {self._address!r} ({_first_line(error)}): start one, by  dask scheduler  "
-                "and name the address that it prints"
-            ) from None
+    try:
+        return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise HexmendError(
+            f"no scheduler answers at {address!r} ({_first_line(error)}): start one, by  dask scheduler  "
+            "and name the address that it prints"
+        ) from None
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 from hexmend.errors import FileError
 from hexmend.io import writable_suffixes
@@ -25,11 +25,9 @@ _Tasks: TypeAlias = dict[str, tuple[Task, list[_RowKey]]]
 _Rows: TypeAlias = dict[_RowKey, dict[str, Any]]
 
 
-class Workers(Protocol):
-    """Runs tasks: `Local` or `Cluster`."""
-
-    def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:
-        """Yield each task with its answer when it is done. Closing the generator ends running tasks."""
+#: Runs tasks and yields each with its answer: `local_answers`, or `cluster_answers` with its address. Closing the
+#: generator ends running tasks.
+Workers: TypeAlias = Callable[[Sequence[Task]], Generator[tuple[Task, dict[str, Any]]]]
 
 
 @dataclass(frozen=True)
@@ -136,7 +134,7 @@ def run_study(
     watch(progress)
     interrupted = False
     try:
-        with closing(workers.answers(_remaining(tasks, stored))) as answers:
+        with closing(workers(_remaining(tasks, stored))) as answers:
             for task, row in answers:
                 store.save(task, row)
                 places = tasks[task.key][1]
@@ -191,7 +189,7 @@ def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> It
         for case in plan.cases:
             if (place := (mesh, case.name)) in rows:
                 values = *place, case.method, case.parameters, *keys.get(place, (None, None))
-                yield dict(zip((column.name for column in PLACE), values, strict=True)) | rows[place]
+                yield dict(zip(PLACE, values, strict=True)) | rows[place]
 
 
 def _name(mesh: Path, case: Case, key: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 from typing import Any
@@ -28,41 +27,30 @@ class Status(StrEnum):
     LOST = "lost"
 
 
-@dataclass(frozen=True)
-class Column:
-    """Column with name and type; study-many.md describes them."""
-
-    name: str
-    type: type
-
-
-def _columns(type_: type, names: str) -> tuple[Column, ...]:
-    return tuple(Column(name, type_) for name in names.split())
-
-
-def _figures(when: str) -> tuple[Column, ...]:
-    return (*(Column(f"{key}_{when}", _TYPES[key]) for key in CHANGED_FIGURES), Column(f"objective_p1_{when}", float))
+def _figures(when: str) -> dict[str, type]:
+    return {f"{key}_{when}": _TYPES[key] for key in CHANGED_FIGURES} | {f"objective_p1_{when}": float}
 
 
 #: Columns that the client fills: mesh and case of the row, SHA-256 of the mesh file, key of the task.
-PLACE = _columns(str, "mesh case method parameters mesh_hash key")
+PLACE = dict.fromkeys(("mesh", "case", "method", "parameters", "mesh_hash", "key"), str)
 
 #: Columns that the process of a task fills.
-ANSWER = (
-    *_columns(str, "status reason"),
-    *_columns(int, "hexes nodes free_nodes"),
-    *_figures("before"),
-    *_figures("after"),
-    Column("boundary_distance", float),
-    *_columns(str, "worse outcome message"),
-    *_columns(int, "iterations kept"),
-    *_columns(float, "seconds setup_seconds task_seconds"),
-    Column("threads", int),
-    Column("peak_mb", float),
-    Column("output", str),
-)
+ANSWER: dict[str, type] = {
+    **dict.fromkeys(("status", "reason"), str),
+    **dict.fromkeys(("hexes", "nodes", "free_nodes"), int),
+    **_figures("before"),
+    **_figures("after"),
+    "boundary_distance": float,
+    **dict.fromkeys(("worse", "outcome", "message"), str),
+    **dict.fromkeys(("iterations", "kept"), int),
+    **dict.fromkeys(("seconds", "setup_seconds", "task_seconds"), float),
+    "threads": int,
+    "peak_mb": float,
+    "output": str,
+}
 
-COLUMNS = PLACE + ANSWER
+#: All columns of the table, with their types; study-many.md describes them.
+COLUMNS: dict[str, type] = PLACE | ANSWER
 
 
 def answer(status: Status, reason: str = "", **figures: Any) -> dict[str, Any]:
@@ -70,16 +58,16 @@ def answer(status: Status, reason: str = "", **figures: Any) -> dict[str, Any]:
     known = {
         name: None if isinstance(value, float) and not isfinite(value) else value for name, value in figures.items()
     }
-    return {column.name: None for column in ANSWER} | known | {"status": str(status), "reason": reason}
+    return dict.fromkeys(ANSWER) | known | {"status": str(status), "reason": reason}
 
 
 def is_answer(row: object) -> bool:
     """Return True if data from a file is an answer: exactly these columns, each None or of its type."""
     return (
         isinstance(row, Mapping)
-        and set(row) == {column.name for column in ANSWER}
+        and row.keys() == ANSWER.keys()
         and row["status"] in set(Status)
-        and all(row[column.name] is None or _fits(row[column.name], column.type) for column in ANSWER)
+        and all(row[name] is None or _fits(row[name], type_) for name, type_ in ANSWER.items())
     )
 
 

@@ -1,13 +1,11 @@
 """Parts of a text are replaced, whatever their number, place and length."""
 
-from io import BytesIO
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.io.coordinates.edits import Edits, write_edited
+from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.text_coordinates import number_texts, parse_fields
 
 
@@ -17,23 +15,18 @@ def test_parts_are_replaced_as_by_a_loop(data):
     places = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=12)))
     begin, end = places[: len(places) // 2 * 2 : 2], places[1::2]
     words = [data.draw(st.sampled_from([b"", b"7", b"-1.25", b"3.0000000001"])) for _ in begin]
-    blanks = [data.draw(st.integers(0, 3)) for _ in begin]
     expected, at = b"", 0
-    for first, last, count, word in zip(begin, end, blanks, words, strict=True):
-        expected, at = expected + text[at:first] + b" " * count + word, last
-    arrays = [np.array(values, np.int64) for values in (begin, end, blanks)]
-    window = data.draw(st.sampled_from([1, 7, 1 << 21]))
-    file = BytesIO()
-    write_edited(file, text, Edits(*arrays, b"".join(word + b"\n" for word in words)), window)
-    assert file.getvalue() == expected + text[at:]
+    for first, last, word in zip(begin, end, words, strict=True):
+        expected, at = expected + text[at:first] + word, last
+    edits = Edits(np.array(begin, np.int64), np.array(end, np.int64), words)
+    assert b"".join(edited(text, edits)) == expected + text[at:]
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), max_size=20))
 def test_numbers_are_read_back_as_they_were_unless_a_width_limits_them(values):
     array = np.array(values)
-    assert [float(word) for word in number_texts(array).split()] == values
-    assert [float(word) for word in number_texts(array, "%.16E").split()] == values
-    words = number_texts(array, width=20).split()
+    assert [float(word) for word in number_texts(array)] == values
+    words = number_texts(array, width=20)
     assert all(len(word) <= 20 for word in words)
     np.testing.assert_allclose([float(word) for word in words], array, rtol=1e-12)
 

@@ -97,7 +97,7 @@ WHOLE = {
         ("\0" * 5000, "holds bytes that are not text"),
         ("hello", "has no line that begins with *"),
         ("*HEADING\n", "has no *NODE"),
-        ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),
+        ("*NODE\n1, 0, 0, x\n", "*NODE in line 2 holds 'x': expected a number"),
         ("*NODE\n1.5, 0, 0, 0\n", "has the number 1.5"),
         (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7\n", "holds 8 numbers: expected 9 an element"),
         (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 9\n", "node 9 is used"),

@@ -67,7 +67,7 @@ def test_what_cannot_be_restored_is_named(two, monkeypatch):
     monkeypatch.undo()
     with atomic_files() as files:
         files.add(two[1]).write_text("newer")
-    assert backup.read_text() == "old b"  # it does not count as abandoned
+    assert backup.read_text() == "old b"
 
 
 def test_a_temporary_file_that_cannot_be_made_leaves_nothing(two, monkeypatch):

@@ -2,8 +2,6 @@
 
 import errno
 import os
-import subprocess
-import sys
 
 import pytest
 
@@ -11,36 +9,9 @@ from hexmend import gallery, io
 from hexmend.errors import FileError
 from hexmend.io.storage.atomic import atomic_write
 
-#: Begins to write a file, says so, and waits.
-WRITER = """
-import sys, time
-from hexmend.io.storage.atomic import atomic_write
-with atomic_write(sys.argv[1]) as temporary:
-    temporary.write_text("half")
-    print(temporary, flush=True)
-    time.sleep(600)
-"""
-
 
 def files(folder):
     return sorted(path.name for path in folder.iterdir())
-
-
-@pytest.fixture
-def writer():
-    """Starts a process that writes a file; gives the process and its temporary file."""
-    started = []
-
-    def start(path):
-        process = subprocess.Popen([sys.executable, "-c", WRITER, str(path)], stdout=subprocess.PIPE, text=True)
-        started.append(process)
-        return process, process.stdout.readline().strip()
-
-    yield start
-    for process in started:
-        process.kill()
-        process.wait()
-        process.stdout.close()
 
 
 @pytest.fixture
@@ -115,26 +86,6 @@ def test_two_writers_of_a_file_have_a_temporary_file_each(tmp_path):
         assert first.read_text() == "first"
     assert path.read_text() == "first"
     assert files(tmp_path) == ["mesh.vtk"]
-
-
-def test_the_next_writer_removes_what_a_killed_one_left_of_the_same_target(tmp_path, writer):
-    path, other = tmp_path / "mesh.vtk", tmp_path / "a-mesh.vtk"
-    for target in (path, other):
-        process, _ = writer(target)
-        process.kill()
-        process.wait()
-    assert len(files(tmp_path)) == 2
-    io.write(path, gallery.make("cube", size=8))
-    assert len(files(tmp_path)) == 2
-    io.write(other, gallery.make("cube", size=8))
-    assert files(tmp_path) == ["a-mesh.vtk", "mesh.vtk"]
-
-
-def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
-    path = tmp_path / "mesh.vtk"
-    _, temporary = writer(path)
-    io.write(path, gallery.make("cube", size=8))
-    assert os.path.exists(temporary)
 
 
 @pytest.mark.parametrize("name", ["m" * 251 + ".vtk", "é" * 125 + ".vtk", "m." + "s" * 253])

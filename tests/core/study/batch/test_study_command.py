@@ -51,7 +51,7 @@ def test_both_tables_hold_the_same(laboratory):
     laboratory.run(laboratory.recipe(f'methods = ["laplacian", "mend"]\n{DEEDS}'), laboratory.mesh())
     table = parquet.read_table(laboratory.out / "study.parquet")
     assert {field.name: str(field.type) for field in table.schema} == {
-        column.name: {str: "string", int: "int64", float: "double"}[column.type] for column in COLUMNS
+        name: {str: "string", int: "int64", float: "double"}[type_] for name, type_ in COLUMNS.items()
     }
     words = [{key: "" if value is None else str(value) for key, value in row.items()} for row in table.to_pylist()]
     assert words == rows_of(laboratory)

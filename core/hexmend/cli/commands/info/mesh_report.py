@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,9 +17,7 @@ from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
-    MetricStatistics,
     SecondOrderSummary,
-    Summary,
     measure,
     metric_statistics,
     summarise,
@@ -50,8 +48,25 @@ def run(args: argparse.Namespace) -> int:
     second_order = summarise_second_order(mesh)
     layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     locking = _locking(mesh, quality)
+    checks = _check(mesh, args.solver, quality)
+    findings = _examine(mesh, args.doctor, second_order)
+    judgement = Judgement.of(args.mesh, quality, locking, findings, checks, second_order)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order, quality, layers, locking)
+        from hexmend.report.records import to_json  # not loaded for a report in words
+
+        answer: dict[str, Any] = summary.to_dict()
+        if args.metrics:
+            answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+        answer |= _materials_record(mesh)
+        parts = {"second_order": second_order, "locking": locking}
+        answer |= {name: part.to_dict() for name, part in parts.items() if part is not None}
+        answer |= {"layers": layers} if layers else {}
+        if checks is not None:
+            answer["checks"] = [result.to_dict() for result in checks.results]
+            answer |= {"solver": checks.solver.name, "verdict": checks.verdict}
+        if args.doctor:
+            answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in findings]
+        print(to_json(answer | judgement.to_dict()))
         return 0
     print_summaries(args.mesh, [""], [summary])
     if locking is not None:
@@ -64,52 +79,23 @@ def run(args: argparse.Namespace) -> int:
         print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
-    checks = _check(mesh, args.solver, quality)
     if checks is not None:
         from hexmend.cli.output.check_table import print_checks
 
         print_checks(checks)
-    findings = _examine(mesh, args.doctor, second_order)
     _print_problems(args, mesh, findings)
-    print(printable(Judgement.of(args.mesh, quality, locking, findings, checks, second_order).line))
+    print(printable(judgement.line))
     return 0
 
 
-def _print_json(
-    args: argparse.Namespace,
-    mesh: Mesh,
-    summary: Summary,
-    metrics: Mapping[str, MetricStatistics],
-    second_order: SecondOrderSummary | None,
-    quality: ElementQuality,
-    layers: list[dict[str, Any]],
-    locking: Locking | None,
-) -> None:
-    from hexmend.report.records import to_json  # not loaded for a report in words
-
-    answer = summary.to_dict()
-    if args.metrics:
-        answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
-    if mesh.materials is not None:
-        counts, volumes = np.bincount(mesh.materials.of_hex).tolist(), material_volumes(mesh).items()
-        pairs = zip(volumes, counts, strict=True)
-        answer["materials"] = {name: {"hexes": count, "volume": volume} for (name, volume), count in pairs}
-        answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
-    if second_order is not None:
-        answer["second_order"] = second_order.to_dict()
-    if layers:
-        answer["layers"] = layers
-    if locking is not None:
-        answer["locking"] = locking.to_dict()
-    checks = _check(mesh, args.solver, quality)
-    if checks is not None:
-        answer["checks"] = [result.to_dict() for result in checks.results]
-        answer |= {"solver": checks.solver.name, "verdict": checks.verdict}
-    findings = _examine(mesh, args.doctor, second_order)
-    if args.doctor:
-        answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in findings]
-    answer |= Judgement.of(args.mesh, quality, locking, findings, checks, second_order).to_dict()
-    print(to_json(answer))
+def _materials_record(mesh: Mesh) -> dict[str, Any]:
+    """Return the materials of a mesh with several, with their numbers of hexes and volumes."""
+    if mesh.materials is None:
+        return {}
+    counts, volumes = np.bincount(mesh.materials.of_hex).tolist(), material_volumes(mesh).items()
+    pairs = zip(volumes, counts, strict=True)
+    materials = {name: {"hexes": count, "volume": volume} for (name, volume), count in pairs}
+    return {"materials": materials, "interface_nodes": int(np.count_nonzero(mesh.materials.interface_nodes))}
 
 
 def _examine(mesh: Mesh, all_searches: bool, second_order: SecondOrderSummary | None) -> tuple[Finding, ...]:

@@ -21,13 +21,13 @@ from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import writer_for
 from hexmend.io.files import check_not_included
-from hexmend.kernels import cores, cores_for, set_threads, threads
+from hexmend.kernels import cores, cores_for, release_free_memory, set_threads, threads
 from hexmend.ranks.launching import local_ranks
 from hexmend.ranks.rank_run import RankRun
 from hexmend.ranks.rank_stages import check_method
 from hexmend.report.records import write_json
 from hexmend.run import StoppingCriteria
-from hexmend.run.memory import peak_mb, release_freed
+from hexmend.run.memory import peak_mb
 from hexmend.run.progress import LINE_INTERVAL
 from hexmend.smoothers import Smoother
 
@@ -49,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
         checkpoints = Checkpoints(args.output, args.checkpoint)
         source = DividedSource.open(args, method, comm, checkpoints)
         source = source or WholeSource(args, method, comm, checkpoints)
-        release_freed()  # of what was read and divided
+        release_free_memory()  # of what was read and divided
         run = RankRun(source.part, method, limits, source.sliding)
         _iterate(run, source)
         return _finish(args, run, source, method.title)
@@ -115,7 +115,7 @@ def _iterate(run: RankRun, source: DividedSource | WholeSource) -> None:
 
 def _finish(args: argparse.Namespace, run: RankRun, source: DividedSource | WholeSource, title: str) -> int:
     """Write the result; rank 0 prints the change."""
-    release_freed()  # of the run
+    release_free_memory()  # of the run
     result = source.finish(run)
     figures = run.part.ranks.comm.gather((peak_mb(), threads()))
     if result is None:
@@ -128,4 +128,4 @@ def _finish(args: argparse.Namespace, run: RankRun, source: DividedSource | Whol
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], result.summaries, None)
     for line in result.lines:
         print(line)
-    return result.status
+    return 4 if result.summaries[1].invalid else 0

@@ -15,6 +15,7 @@ from hexmend.errors import HexmendError
 from hexmend.quality import Summary, describe_regressions
 from hexmend.ranks.rank_run import RankRun
 from hexmend.run.memory import format_bytes
+from hexmend.run.messages import kept_message
 from hexmend.run.stage_run import StageRun
 from hexmend.terminal_text import count_phrase
 
@@ -110,31 +111,19 @@ class RankResult:
             kept, last = alone.best.number, alone.last.number
             went_on = count_phrase(alone.n_iterations, "iteration")
             spent += f" Rank 0 continued alone for {went_on} and {alone.last.seconds - run.seconds:.3g} s."
-        if kept == 0 < last:
-            decisions, kept_words = [], "The mesh as given was kept: every iteration was worse."
-        elif kept < last and alone is None:  # decisions are of the end
-            decisions, kept_words = [], f"Iteration {kept:,} was kept."
-        else:
-            kept_words = "" if kept == last else f"Iteration {kept:,} was kept."
-        words = outcome.value, spent, *decisions, kept_words
+        words = [outcome.value, spent]
+        if kept == last or (kept and alone is not None):  # else they are of the end
+            words += decisions
+        words += [kept_message(kept)] if kept < last else []
         return " ".join(filter(None, [*words, describe_regressions(*self.summaries, None)]))
-
-    @property
-    def surface_sentence(self) -> str:
-        """Change of the boundary, in sentences; "" where it was fixed."""
-        return " ".join(filter(None, (one.sentence for one in self.boundary or ())))
 
     @property
     def lines(self) -> list[str]:
         """Lines below the table of the figures."""
         of_second_order = self.second_order.lines if self.second_order else []
         advice = self.second_order.advice if self.second_order and not self.summaries[1].inverted else ""
-        return list(filter(None, (self.message, *of_second_order, self.surface_sentence, self.written, advice)))
-
-    @property
-    def status(self) -> int:
-        """Exit status of the program: 4 if hexes are still invalid."""
-        return 4 if self.summaries[1].invalid else 0
+        surface = " ".join(filter(None, (one.sentence for one in self.boundary or ())))
+        return list(filter(None, (self.message, *of_second_order, surface, self.written, advice)))
 
     def record(self) -> dict[str, object]:
         """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""

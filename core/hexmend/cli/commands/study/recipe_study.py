@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from hexmend import __version__
@@ -15,8 +16,8 @@ from hexmend.errors import HexmendError, ParameterError
 from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
 from hexmend.report.documents import output_folder
 from hexmend.run.progress import line_display
-from hexmend.study.batch.cluster import Cluster
-from hexmend.study.batch.local import Local
+from hexmend.study.batch.cluster import check_installed, cluster_answers
+from hexmend.study.batch.local import local_answers
 from hexmend.study.batch.mesh_files import find_meshes
 from hexmend.study.batch.plan import read_plan
 from hexmend.study.batch.runner import StudyProgress, StudyResult, Workers, run_study
@@ -71,12 +72,13 @@ def _workers(args: argparse.Namespace) -> Workers:
     if args.jobs is not None and args.jobs < 1:
         raise ParameterError(f"--jobs {args.jobs} is too small: expected a whole number from 1")
     if not args.scheduler:
-        return Local(args.jobs or 0)
+        return partial(local_answers, jobs=args.jobs or 0)
     if args.jobs:
         raise ParameterError(
             "--jobs is for tasks on this machine, --scheduler for tasks on others: leave out one of them"
         )
-    return Cluster(args.scheduler)
+    check_installed()
+    return partial(cluster_answers, address=args.scheduler)
 
 
 def _write_report(folder: Path, study: StudyResult) -> None:
@@ -84,7 +86,7 @@ def _write_report(folder: Path, study: StudyResult) -> None:
     record = study.record()
     paths = write_batch_study(folder, record, machine())
     try:
-        write_parquet(folder / "study.parquet", record["rows"], {column.name: column.type for column in COLUMNS})
+        write_parquet(folder / "study.parquet", record["rows"], COLUMNS)
         paths.append(folder / "study.parquet")
     except HexmendError as error:
         print(f"hexmend: {error}", file=sys.stderr)

@@ -10,11 +10,12 @@ import numpy as np
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
-from hexmend.io.formats.abaqus.model import Instance, MemberBudget, Part, SetLookup, name_key
+from hexmend.io.formats.abaqus.model import Instance, Part, SetLookup, name_key
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
@@ -59,7 +60,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     if unread:
         notes.append(unread_note(f"{sum(unread.values()):,} elements of other types ({some_names(sorted(unread))})"))
 
-    budget = MemberBudget(deck)
+    budget = MemoryBudget(deck.path, deck.size)
     of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget)
     of_elements = _lookups(deck, instances, elements.ids, "element_sets", budget)
     node_sets = _sets(instances, of_nodes, several)
@@ -158,7 +159,7 @@ def _unread(instances: list[Instance]) -> dict[str, int]:
 
 
 def _lookups(
-    deck: Deck, instances: list[Instance], ids: list[np.ndarray], attribute: str, budget: MemberBudget
+    deck: Deck, instances: list[Instance], ids: list[np.ndarray], attribute: str, budget: MemoryBudget
 ) -> list[SetLookup]:
     """Lookups of the sets of each instance; the last, the assembly's, can look up sets of instances."""
     first, lookups = _offsets(ids), []
@@ -195,7 +196,7 @@ def _side_sets(
             for entry, side in entries:
                 face = FACE_OF_SIDE.get(side)
                 hexes = elements.hexes(lookup.resolve(entry))
-                lookup.budget.spend(len(hexes))
+                lookup.budget.charge(hexes.nbytes, "its surfaces")
                 n_other += int((hexes < 0).sum()) if face is not None else 1
                 hexes = hexes[hexes >= 0]
                 if face is not None and len(hexes):

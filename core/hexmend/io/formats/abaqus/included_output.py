@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from itertools import count
 from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits, write_edited
+from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
-from hexmend.io.formats.abaqus.deck import Deck, DeckFile, Reference
+from hexmend.io.formats.abaqus.deck import Deck, Reference
 from hexmend.io.formats.abaqus.includes import included_files
 from hexmend.io.storage.atomic import AtomicFiles
 
 
-def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: AtomicFiles) -> tuple[str, ...]:
+def write_files(root: Deck, edits: Mapping[Deck, Edits], target: Path, files: AtomicFiles) -> tuple[str, ...]:
     """Write a deck and the files that it includes with other coordinates.
 
     Where the deck replaces itself, so do its files. Else a file with moved nodes is written next to the new deck with
@@ -26,14 +26,12 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
 
     Parameters
     ----------
-    deck : Deck
-        With pieces.
-    edits : Edits
-        Of the joined text.
-    file, target : Path
-        As of `LocatedCoordinates.write`.
+    root : Deck
+    edits : mapping of Deck to Edits
+        Of the deck and the files that it includes.
+    target : Path
     files : AtomicFiles
-        Takes the files beside the target.
+        As of `LocatedCoordinates.write`.
 
     Returns
     -------
@@ -47,8 +45,8 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
     IncludedFileError
         If the copy of the deck would include itself.
     """
-    root = deck.pieces[0].file
-    own = {one: part for one in root.walk() if len(part := _of_file(deck, edits, one))}
+    file = files.add(target)  # the first, which is replaced last
+    own = {one: part for one, part in edits.items() if len(part)}
     paths = [one.path.resolve() for one in root.walk()]
     if twice := [one for one in own if paths.count(one.path.resolve()) > 1]:
         raise CoordinatesError(f"{twice[0].path.name} is included twice, and its nodes have moved")
@@ -72,54 +70,38 @@ def write_files(deck: Deck, edits: Edits, file: Path, target: Path, files: Atomi
     return tuple(dict.fromkeys(reversed(notes)))
 
 
-def _references(file: DeckFile, renamed: dict[DeckFile, str]) -> list[tuple[Reference, str]]:
+def _references(file: Deck, renamed: dict[Deck, str]) -> list[tuple[Reference, str]]:
     """Places in a file that name files with another name in the copy, and these names."""
     return [(one.reference, renamed[one]) for one in file.included if one in renamed]
 
 
 def _none() -> Edits:
     nothing = np.zeros(0, np.int64)
-    return Edits(nothing, nothing, nothing, b"")
+    return Edits(nothing, nothing, [])
 
 
-def _write(path: Path, file: DeckFile, edits: Edits) -> None:
+def _write(path: Path, file: Deck, edits: Edits) -> None:
     with open(path, "wb") as out:
-        write_edited(out, file.data, edits)
-
-
-def _of_file(deck: Deck, edits: Edits, file: DeckFile) -> Edits:
-    """Edits of the joined text that lie in a file, with its offsets."""
-    lines, parts = edits.texts.split(b"\n"), []
-    for piece in deck.pieces:
-        if piece.file is file:
-            low, high = np.searchsorted(edits.begin, [piece.begin, piece.begin + piece.length])
-            high += int(np.searchsorted(edits.begin[high:], piece.begin + piece.length, "right"))  # at its end
-            shift = piece.file_begin - piece.begin
-            texts = b"".join(line + b"\n" for line in lines[low:high])
-            part = slice(low, high)
-            parts.append(Edits(edits.begin[part] + shift, edits.end[part] + shift, edits.padding[part], texts))
-    return _merged(parts)
+        out.writelines(edited(file.given, edits))
 
 
 def _merged(parts: list[Edits]) -> Edits:
     """Edits of several parts of a file, in the order of the file."""
-    arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end", "padding")]
-    lines = b"".join(part.texts for part in parts).split(b"\n")
-    order = np.argsort(arrays[0], kind="stable")
-    return Edits(*(values[order] for values in arrays), b"".join(lines[k] + b"\n" for k in order.tolist()))
+    begin, end = (np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end"))
+    return Edits(begin, end, [text for part in parts for text in part.texts]).in_order()
 
 
 def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
     """Edits and the new names of included files."""
     parts = [edits]
     for reference, name in names:
-        quote = b'"' if reference.parent.data[reference.begin : reference.begin + 1] == b'"' else b""
-        place = np.array([reference.begin]), np.array([reference.end]), np.zeros(1, np.int64)
-        parts.append(Edits(*place, quote + name.encode() + quote + b"\n"))
+        quote = b'"' if reference.parent.given[reference.begin : reference.begin + 1] == b'"' else b""
+        place = np.array([reference.begin]), np.array([reference.end])
+        parts.append(Edits(*place, [quote + name.encode() + quote]))
     return _merged(parts)
 
 
-def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[DeckFile, str]:
+def _new_names(root: Deck, own: Collection[Deck], target: Path) -> dict[Deck, str]:
     """Names of the copies of included files with moved nodes, and of files that include them.
 
     No other file has the name, save one that the deck at the target includes, which these copies replace.
@@ -140,7 +122,7 @@ def _new_names(root: DeckFile, own: Collection[DeckFile], target: Path) -> dict[
     return renamed
 
 
-def _renamed(file: DeckFile, suffix: str) -> str:
+def _renamed(file: Deck, suffix: str) -> str:
     """Name of the copy of an included file, with letters behind its own; a file elsewhere comes next to the deck."""
     name = PurePosixPath(file.reference.name.replace("\\", "/"))
     name = name.with_name(f"{name.stem}{suffix}{name.suffix}")
@@ -154,7 +136,7 @@ def _place(target: Path, name: str) -> Path:
     return path
 
 
-def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: AtomicFiles) -> list[str]:
+def _copied(file: Deck, renamed: dict[Deck, str], target: Path, files: AtomicFiles) -> list[str]:
     """Copy an included file that stays as it is to where the new deck looks for it; returns notes.
 
     Raises `IncludedFileError` where the new deck has the name of this file: it would include itself.
@@ -169,7 +151,7 @@ def _copied(file: DeckFile, renamed: dict[DeckFile, str], target: Path, files: A
         raise IncludedFileError(target, f"has the name of a file that {deck} includes", "Choose another name.")
     found = next((path for path in places if path.is_file()), None)
     if found is not None or ".." in name.parts:
-        same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.data)
+        same = found is not None and (is_same_file(file.path, found) or found.read_bytes() == file.given)
         return [] if same else [f"The new deck includes {name}, which was not copied: check that it is the right file."]
     shutil.copyfile(file.path, files.add(_place(target, str(name))))
     return [f"{name} is copied next to the new deck."]

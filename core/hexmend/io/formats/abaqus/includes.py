@@ -1,14 +1,14 @@
-"""Files that an Abaqus deck includes, joined with it to one text."""
+"""Files that an Abaqus deck includes, whose cards come in its own."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io.base.cursor import quoted, read_text_bytes
-from hexmend.io.formats.abaqus.deck import Card, Deck, DeckFile, Piece, Reference
+from hexmend.io.formats.abaqus.deck import NEWLINE, Card, Deck, Reference
 from hexmend.io.formats.abaqus.model import unquoted
 from hexmend.io.storage.readable import check_readable
 
@@ -27,13 +27,9 @@ def read_deck(path: Path) -> Deck:
     FileError
         For an included file that cannot be read, or one that includes itself.
     """
-    root = DeckFile(path, read_text_bytes(path))
-    deck = Deck(path, root.data)
-    if next(_including(deck), None) is None:
-        return deck
-    joined = _Joined(root)
-    joined.add(root, ())
-    return Deck(path, b"".join(joined.texts), tuple(joined.pieces), joined.hidden)
+    root = Deck(path, read_text_bytes(path))
+    _Opener(root).add_cards(root, None)
+    return root
 
 
 def included_files(path: Path) -> set[Path]:
@@ -49,37 +45,45 @@ def included_files(path: Path) -> set[Path]:
         With links resolved; empty for a file that is missing or cannot be read.
     """
     try:
-        return {one.path.resolve() for piece in read_deck(path).pieces[:1] for one in list(piece.file.walk())[1:]}
+        return {one.path.resolve() for one in list(read_deck(path).walk())[1:]}
     except (HexmendError, OSError):
         return set()
 
 
-class _Joined:
-    """The texts joined so far."""
+class _Opener:
+    """Opens the files that a deck includes, and lists the cards of all in `root.cards`."""
 
-    def __init__(self, root: DeckFile):
-        self.root, self.texts, self.pieces, self.hidden = root, [], [], []
-        self._length, self._n_files = 0, 0
+    def __init__(self, root: Deck):
+        self.root, self._n_files = root, 0
 
-    def add(self, file: DeckFile, parents: tuple[Path, ...]) -> None:
-        """Add a file, and the files that it includes after the keywords that name them."""
-        at = 0
-        deck = Deck(file.path, file.data)
-        for begin, card in _including(deck):
-            self._put(file, at, card.begin)
+    def add_cards(self, file: Deck, before: Card | None) -> Card | None:
+        """Add the cards of a file; data lines at its begin continue the card `before`. Returns the last to go on."""
+        cards = list(file.own_cards())
+        before = self._continue(before, file, 0, cards[0].at if cards else len(file.data))
+        for card in cards:
+            if card.name != "INCLUDE":
+                self.root.cards.append(card)
+                before = card if card.name in _INCLUDING else None
+            if card.name in _INCLUDING and "INPUT" in card.options:
+                included = self._open(file, card)
+                file.included.append(included)
+                before = self.add_cards(included, before)
             if card.name == "INCLUDE":
-                own = self.pieces[-1]
-                keyword = own.begin + begin - own.file_begin
-                self.hidden.append((keyword, own.begin + len(file.data[at : card.begin].rstrip())))
-            at = card.begin
-            included = self._open(file, begin, card, (*parents, file.path.resolve()))
-            file.included.append(included)
-            self.add(included, (*parents, file.path.resolve()))
-        self._put(file, at, len(file.data))
+                before = self._continue(before, file, card.begin, card.end)
+        return before
 
-    def _open(self, file: DeckFile, begin: int, card: Card, parents: tuple[Path, ...]) -> DeckFile:
+    def _continue(self, card: Card | None, file: Deck, begin: int, end: int) -> Card | None:
+        """Add data lines of a file that go on after those of a card elsewhere."""
+        if card is not None and file.data[begin:end].strip():
+            self.root.cards.append(replace(card, deck=file, begin=begin, end=end, at=begin))
+        return card
+
+    def _open(self, file: Deck, card: Card) -> Deck:
+        parents = [one.path.resolve() for one in file.lineage()]
         name = unquoted(card.options["INPUT"])
-        place = f"*{card.name} in line {card.line} of {file.path.name} reads {quoted(name)}"
+        place = (
+            f"*{card.name} in line {file.data.count(NEWLINE, 0, card.at) + 1} of {file.path.name} reads {quoted(name)}"
+        )
         self._n_files += 1
         folders = (self.root.path.parent, file.path.parent)
         found = [folder / name for folder in folders if name and (folder / name).is_file()]
@@ -89,21 +93,5 @@ class _Joined:
         if found[0].resolve() in parents or len(parents) > _MAX_DEPTH or self._n_files > _MAX_FILES:
             raise FileError(self.root.path, f"{place}: files include each other without end", "Correct the file.")
         check_readable(found[0], "a file of Abaqus keywords")
-        match = _INPUT.search(file.data, begin)
-        return DeckFile(found[0], read_text_bytes(found[0]), Reference(file, *match.span(1), name))
-
-    def _put(self, file: DeckFile, begin: int, end: int) -> None:
-        """Add a part of a file, and a line end where it has none."""
-        text = file.data[begin:end]
-        self.pieces.append(Piece(file, self._length, begin, len(text)))
-        self.texts.append(text if text.endswith((b"\n", b"\r")) or not text else text + b"\n")
-        self._length += len(self.texts[-1])
-
-
-def _including(deck: Deck) -> Iterator[tuple[int, Card]]:
-    """Cards that include a file, each with the begin of its keyword."""
-    at = 0
-    for card in deck.cards():
-        if card.name in _INCLUDING and "INPUT" in card.options:
-            yield deck.data.rfind(b"*", at, card.begin), card
-        at = card.begin
+        match = _INPUT.search(file.data, card.at)
+        return Deck(found[0], read_text_bytes(found[0]), Reference(file, *match.span(1), name))

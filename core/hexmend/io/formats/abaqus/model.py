@@ -12,11 +12,11 @@ import numpy as np
 
 from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import lookup
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.abaqus.deck import Card, Deck
 
-#: Members that all sets may have for each byte of the file, and members that are never too many.
-_MEMBERS_PER_BYTE, _ALWAYS_ALLOWED = 20, 1_000_000
 #: Levels of sets that are members of sets.
 _MAX_DEPTH = 100
 
@@ -72,19 +72,6 @@ def merged_sets(first: dict[str, SetDefinition], second: dict[str, SetDefinition
     return first | {key: first[key].merged(more) if key in first else more for key, more in second.items()}
 
 
-class MemberBudget:
-    """Limit on the members of all sets together, so that a small file cannot fill the memory."""
-
-    def __init__(self, deck: Deck):
-        self.deck, self.left = deck, _ALWAYS_ALLOWED + _MEMBERS_PER_BYTE * len(deck.data)
-
-    def spend(self, members: int) -> None:
-        """Count members; raise `FileError` above the limit."""
-        self.left -= members
-        if self.left < 0:
-            raise self.deck.error("its sets have far more members than a file of its size can define")
-
-
 class SetLookup:
     """Members of the sets of one instance, or of the assembly, as positions among all nodes or elements.
 
@@ -97,7 +84,7 @@ class SetLookup:
         By key.
     first : int
         Position of the first of `ids`.
-    budget : MemberBudget
+    budget : MemoryBudget
     instances : mapping of str to SetLookup, optional
         Lookups of the instances that sets of the assembly may name, by key.
 
@@ -113,7 +100,7 @@ class SetLookup:
         ids: np.ndarray,
         sets: dict[str, SetDefinition],
         first: int,
-        budget: MemberBudget,
+        budget: MemoryBudget,
         instances: Mapping[str, SetLookup] | None = None,
     ):
         self.deck, self.sets, self.budget, self.instances = deck, sets, budget, instances or {}
@@ -149,26 +136,22 @@ class SetLookup:
         for first, last, step in dict.fromkeys(definition.ranges):
             begin, end = np.searchsorted(self.ids, [first, last + 1])
             found.append(self.order[begin:end][(self.ids[begin:end] - first) % step == 0])
-            self.budget.spend(len(found[-1]))
+            self.budget.charge(found[-1].nbytes, "its sets")
         for entry in dict.fromkeys(definition.entries):
             if not is_number(entry):
                 found.append(self.resolve(entry, parents))
-                self.budget.spend(len(found[-1]))
+                self.budget.charge(found[-1].nbytes, "its sets")
         for instance, lines in definition.by_instance.items():
             if instance not in self.instances:
                 raise self.deck.error(f"a set refers to the instance {quoted(instance)}, which does not exist")
             found.append(self.instances[instance]._evaluate(lines))
         positions = np.unique(np.concatenate(found))
-        self.budget.spend(len(positions))
+        self.budget.charge(positions.nbytes, "its sets")
         return positions
 
     def _positions(self, numbers: np.ndarray) -> np.ndarray:
         """Positions of the numbers that exist; the others are counted."""
-        if not len(self.ids):
-            self.n_unknown += len(numbers)
-            return np.zeros(0, np.int64)
-        at = np.minimum(np.searchsorted(self.ids, numbers), len(self.ids) - 1)
-        exists = self.ids[at] == numbers
+        at, exists = lookup(self.ids, numbers, np.arange(len(self.ids)))
         self.n_unknown += int((~exists).sum())
         return self.order[at[exists]]
 
@@ -297,10 +280,10 @@ def element_card(deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
     FileError
         Unless its numbers are those of whole elements.
     """
-    numbers = deck.numbers(card, "*ELEMENT", np.int64)
+    numbers = card.deck.numbers(card, "*ELEMENT", np.int64)
     width = 1 + node_count(kind)
     if numbers.size % width:
-        problem = f"*ELEMENT of type {quoted(type)} in {deck.place(card)} holds {numbers.size} numbers"
+        problem = f"*ELEMENT of type {quoted(type)} in {card.place} holds {numbers.size} numbers"
         raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
     rows = numbers.reshape(-1, width)
     return ElementCard(type, kind, rows[:, 0].copy(), rows[:, 1:])

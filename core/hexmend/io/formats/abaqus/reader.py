@@ -72,7 +72,7 @@ def read_node_cards(deck: Deck) -> list[Instance]:
     Of their parts, only `node_cards` are known.
     """
     reader = _Reader(deck)
-    for card in deck.cards():
+    for card in deck.cards:
         if card.name == "NODE":
             reader.part.node_cards.append(card)
         elif card.name in _STRUCTURE:
@@ -93,18 +93,16 @@ class _Reader:
 
     def model(self) -> tuple[list[Instance], Part, list[str], list[str]]:
         """Read all cards; return the instances, the assembly, notes, and the names of cards by which bodies touch."""
-        count = 0
-        for card in self.deck.cards():
-            count += 1
+        for card in self.deck.cards:
             reader = _CARDS.get(card.name)
             if card.name in _GENERATING:
-                problem = f"*{card.name} in {self.deck.place(card)} generates nodes or elements from others"
+                problem = f"*{card.name} in {card.place} generates nodes or elements from others"
                 raise self.deck.error(problem, _EXPAND)
             if reader is not None:
                 reader(self, card)
             elif card.name not in _IGNORED:
                 self.other_cards[card.name] += 1
-        if not count:
+        if not self.deck.cards:
             raise self.deck.error("has no line that begins with *", check_suffix("an Abaqus file"))
         notes = []
         if self.other_cards:
@@ -128,8 +126,8 @@ class _Reader:
     def read_node(self, card: Card) -> None:
         """*NODE, NSET=..."""
         if card.options.get("SYSTEM", "R").upper() not in ("R", ""):
-            raise self.deck.error(f"*NODE in {self.deck.place(card)} has other coordinates than x, y and z", _EXPAND)
-        ids, points = self.deck.nodes(card)
+            raise self.deck.error(f"*NODE in {card.place} has other coordinates than x, y and z", _EXPAND)
+        ids, points, _ = card.deck.nodes(card)
         self.part.node_ids.append(ids)
         self.part.points.append(points)
         if "NSET" in card.options:
@@ -150,7 +148,7 @@ class _Reader:
     def _element_ids(self, card: Card) -> np.ndarray:
         """Numbers of the elements of a card whose type is not known: the first fields of lines that continue none."""
         ids, continued = [], False
-        for line in self.deck.lines(card):
+        for line in card.lines():
             first = line.split(",", 1)[0].strip()
             if not continued and is_number(first):
                 ids.append(int(first))
@@ -162,18 +160,18 @@ class _Reader:
         sets = self.part.node_sets if card.name == "NSET" else self.part.element_sets
         name = card.options.get(card.name, "")
         if not name:
-            raise self.deck.error(f"*{card.name} in {self.deck.place(card)} has no name")
+            raise self.deck.error(f"*{card.name} in {card.place} has no name")
         definition = _definition(sets, name)
         if "INSTANCE" in card.options:
             instance = name_key(card.options["INSTANCE"])
             definition = definition.by_instance.setdefault(instance, SetDefinition(definition.title))
-        for row in self.deck.fields(card):
+        for row in card.fields():
             if "GENERATE" not in card.options:
                 definition.entries += [word for word in row if word]
                 continue
             numbers = [int(word) for word in row if is_number(word)]
             if len(numbers) != len(row) or not 2 <= len(numbers) <= 3 or 0 in numbers[2:]:
-                problem = f"*{card.name} in {self.deck.place(card)} holds {quoted(', '.join(row))}"
+                problem = f"*{card.name} in {card.place} holds {quoted(', '.join(row))}"
                 raise self.deck.error(f"{problem}: expected first, last and step")
             definition.ranges.append((*numbers, 1)[:3])
 
@@ -181,10 +179,10 @@ class _Reader:
         """*SURFACE, NAME=..., TYPE=ELEMENT or NODE."""
         name, type = card.options.get("NAME", ""), card.options.get("TYPE", "ELEMENT").upper()
         if type == "NODE":
-            _definition(self.part.node_sets, name).entries += [row[0] for row in self.deck.fields(card) if row[0]]
+            _definition(self.part.node_sets, name).entries += [row[0] for row in card.fields() if row[0]]
         elif type == "ELEMENT":
             rows = self.part.surfaces.setdefault(unquoted(name), [])
-            rows += [(row[0], (row[1:] or [""])[0].upper()) for row in self.deck.fields(card) if row[0]]
+            rows += [(row[0], (row[1:] or [""])[0].upper()) for row in card.fields() if row[0]]
         else:
             self.other_cards[card.name] += 1
 
@@ -198,15 +196,13 @@ class _Reader:
         part = self.parts.get(name_key(card.options.get("PART", "")))
         if part is None:
             name = quoted(card.options.get("PART", ""))
-            raise self.deck.error(
-                f"*INSTANCE in {self.deck.place(card)} refers to the part {name}, which does not exist"
-            )
+            raise self.deck.error(f"*INSTANCE in {card.place} refers to the part {name}, which does not exist")
         self.part = Part(part.name)
-        translation, rotation = placement(self.deck, self.deck.fields(card))
+        translation, rotation = placement(self.deck, card.fields())
         name = unquoted(card.options.get("NAME", ""))
         self.instances.append(Instance(name, part, translation, rotation, self.part))
         n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
-        if n_nodes > _ALWAYS_ALLOWED + len(self.deck.data):
+        if n_nodes > _ALWAYS_ALLOWED + self.deck.size:
             problem = f"its {len(self.instances)} instances have more nodes than a file of its size can define"
             raise self.deck.error(problem)
 

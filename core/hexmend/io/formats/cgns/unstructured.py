@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, Block, dimension
-from hexmend.io.base.numbering import check_numbers
+from hexmend.io.base.numbering import check_numbers, lookup
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.section import FACE_OF_NUMBER, NFACE, NGON, CellGroup, CGNSSection
@@ -54,8 +54,8 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
     n_cells, groups = np.zeros(len(faces), np.int64), []  # of each face
     for section in (section for section in sections if section.type == NFACE):
         cells = section.rows()
-        index = np.searchsorted(numbers, np.abs(cells.values)).clip(0, max(0, len(numbers) - 1))
-        if cells.values.size and (not len(numbers) or (numbers[index] != np.abs(cells.values)).any()):
+        index, there = lookup(numbers, np.abs(cells.values))
+        if not there.all():
             raise section.error("refers to faces that do not exist")
         outward = cells.values > 0  # the face's normal points out of the cell
         found = cells_from_faces(faces, RaggedArray(cells.start, index), outward)
@@ -123,11 +123,8 @@ def read_unstructured(node: CGNSNode) -> Zone:
 def _sides(section: CGNSSection, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Side set, (k, 2), of the faces `which` of a section, by number; faces that belong to no hex are left out."""
     parents = section.parents[which].reshape(-1, 2)
-    order = np.argsort(hexes, kind="stable")
-    at = np.searchsorted(hexes, parents[:, 0], sorter=order).clip(0, max(0, len(hexes) - 1))
-    rows = order[at] if len(hexes) else at
-    valid = (parents[:, 1] >= 1) & (parents[:, 1] <= 6)
-    valid &= hexes[rows] == parents[:, 0] if len(hexes) else False
+    rows, valid = lookup(hexes, parents[:, 0])
+    valid &= (parents[:, 1] >= 1) & (parents[:, 1] <= 6)
     return np.column_stack([rows[valid], FACE_OF_NUMBER[parents[valid, 1] - 1]])
 
 
@@ -145,8 +142,8 @@ def _add_condition(
     numbers = members[0].integers().ravel()
     at_vertices = node.text_of("GridLocation_t", "Vertex") == "Vertex"
     of_nodes = at_vertices and not members[0].name.startswith("Element")
-    if of_nodes and numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
-        raise FileError(node.path, f"boundary condition {name!r} refers to nodes that do not exist", DAMAGED)
+    if of_nodes:
+        check_numbers(node.path, f"boundary condition {name!r} refers to the nodes", numbers - 1, len(zone.points))
     if members[0].name.endswith("Range"):
         if numbers.size != 2 or numbers[1] < numbers[0]:
             raise FileError(node.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)

@@ -13,7 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_blocks, node_count, to_vtk_order
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
-from hexmend.io.base.numbering import check_numbers
+from hexmend.io.base.numbering import check_numbers, lookup
 from hexmend.io.base.remedies import DAMAGED, unread_note
 from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryPiece, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
@@ -181,8 +181,7 @@ class _Reader:
         for k, name in self.sets("ss", "num_side_sets", "side set", "elem", "side"):
             elements = self.variables.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
             sides = self.variables.integers(f"side_ss{k}", len(elements))
-            rows = np.searchsorted(hexes, elements).clip(0, max(0, len(hexes) - 1))
-            of_hex = hexes[rows] == elements if len(hexes) else np.zeros(len(elements), bool)
+            rows, of_hex = lookup(hexes, elements)
             if not of_hex.all():
                 self.notes.append(unread_note(f"{int((~of_hex).sum()):,} sides of other cells in {name!r}"))
             sides = sides[of_hex]

@@ -13,7 +13,7 @@ from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, dimension, to
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.numbering import find_ids
+from hexmend.io.base.numbering import find_ids, lookup
 from hexmend.io.base.remedies import unread_note
 from hexmend.io.formats.gmsh.sections import (
     KIND_OF_TYPE,
@@ -132,13 +132,11 @@ def _data(
         if np.array_equal(section.tags, tags):
             found[section.name] = section.values
             continue
-        order = np.argsort(section.tags, kind="stable")
-        at = np.minimum(np.searchsorted(section.tags[order], tags), len(order) - 1)
-        known = section.tags[order[at]] == tags
+        at, known = lookup(section.tags, tags)
         if known.any():
             size = len(tags) * section.values[:1].nbytes
             budget.charge(size, f"the data {quoted(section.name)} of all nodes or elements")
-            found[section.name] = section.values[order[at]]
+            found[section.name] = section.values[at]
             found[section.name][~known] = np.nan
     return found
 

@@ -17,7 +17,7 @@ from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Readers of sections by version and keyword.
-_READERS = {
+READERS = {
     1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
     2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
@@ -52,9 +52,9 @@ def read(path: Path) -> Mesh:
         key = source.next_line()
         if key == "$MeshFormat":
             version, order = read_format(source)
-        elif key in _READERS[version or 1]:  # the first version has no $MeshFormat
+        elif key in READERS[version or 1]:  # the first version has no $MeshFormat
             version = version or 1
-            _READERS[version][key](source, order, sections)
+            READERS[version][key](source, order, sections)
         elif version and key == "$PhysicalNames":
             _read_physical_names(source, sections)
         elif version and key in DATA:

@@ -125,6 +125,9 @@ class Sections:
     #: Node tags, (n,) int64, and coordinates, (n, 3) float64.
     tags: np.ndarray | None = None
     points: np.ndarray | None = None
+    #: Place of the first coordinate, number of nodes, and distance of the next node, for each of their blocks: in bytes
+    #: of the file, or in words of $Nodes in a text.
+    places: list[tuple[int, int, int]] = field(default_factory=list)
     elements: list[ElementBlock] | None = None
     #: Lines of $PhysicalNames.
     names: list[str] = field(default_factory=list)

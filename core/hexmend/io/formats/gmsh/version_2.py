@@ -13,7 +13,9 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Nodes: a count, then the tag and the coordinates of each node."""
     if order:
         count = source.parse_count(source.next_line(), "the number of nodes")
-        blocks = source.binary_blocks("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])
+        row = np.dtype([("tag", f"{order}i4"), ("x", f"{order}f8", 3)])
+        sections.places = [(source.pos + row.fields["x"][1], count, row.itemsize)]
+        blocks = source.binary_blocks("$Nodes", count, 1, row)
         sections.tags, sections.points = np.empty(count, np.int64), np.empty((count, 3))
         for part, rows in blocks:
             sections.tags[part], sections.points[part] = rows["tag"][:, 0], rows["x"][:, 0]
@@ -28,7 +30,7 @@ def read_text_nodes(source: ByteCursor, name: str, end: bytes, sections: Section
     count = int(values[0]) if values.size and np.isfinite(values[0]) else 0
     if values.size != 1 + 4 * count:
         raise source.error(f"{name} holds {values.size} numbers: expected {1 + 4 * count} for {count} nodes")
-    rows = values[1:].reshape(count, 4)
+    rows, sections.places = values[1:].reshape(count, 4), [(2, count, 4)]
     sections.tags, sections.points = node_tags(source, rows[:, 0]), np.ascontiguousarray(rows[:, 1:])
 
 

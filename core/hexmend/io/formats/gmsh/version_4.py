@@ -111,6 +111,8 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
         (n_nodes,) = numbers.integers(1)
         tags.append(numbers.take_node_tags(n_nodes))
         width = 3 + (dimension if parametric else 0)
+        place, word = (source.pos, 8) if order else (numbers.at, 1)
+        sections.places.append((place, n_nodes, word * width))
         points.append(native(numbers.take(n_nodes * width, "f8")).reshape(n_nodes, width)[:, :3])
     numbers.close()
     sections.tags, sections.points = joined(tags, np.int64), joined(points, np.float64, 3)

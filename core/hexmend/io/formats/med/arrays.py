@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base import hdf5
 from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.remedies import DAMAGED
 
@@ -46,15 +47,6 @@ ORDER = {
 }  # fmt: skip
 
 
-#: Bytes of an array for each byte of the file, and bytes that are never too many.
-_RATIO, _ALWAYS_ALLOWED = 200, 1 << 26
-
-
-def max_bytes(path: Path) -> int:
-    """Most bytes that an array of the file may have."""
-    return max(_ALWAYS_ALLOWED, _RATIO * path.stat().st_size)
-
-
 def read_array(path: Path, group: Mapping, name: str) -> np.ndarray:
     """Read an array of a group.
 
@@ -65,10 +57,7 @@ def read_array(path: Path, group: Mapping, name: str) -> np.ndarray:
     """
     if name not in group:
         raise FileError(path, f"{group.name} has no {name}", DAMAGED)
-    dataset = group[name]
-    if int(np.prod(dataset.shape, dtype=object)) * dataset.dtype.itemsize > max_bytes(path):
-        raise FileError(path, f"{group.name}/{name} declares more data than a file of its size can hold", DAMAGED)
-    return np.asarray(dataset[()])
+    return np.asarray(hdf5.read_dataset(path, group[name]))
 
 
 def read_integers(path: Path, group: Mapping, name: str, count: int) -> np.ndarray:

@@ -16,6 +16,7 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.hdf5 import text_of
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED, some_names, unread_note
 from hexmend.io.formats.med.arrays import GEOMETRY_BITS, read_array
 
@@ -95,9 +96,7 @@ def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -
         if values.dtype.kind not in "iuf" or values.shape != (width * len(rows),):
             problem = f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}"
             raise FileError(path, problem, DAMAGED)
-        if len(rows) and (rows.min() < 0 or rows.max() >= count):
-            problem = f"the profile {profile} refers to entries that do not exist: expected 1 to {count}"
-            raise FileError(path, problem, DAMAGED)
+        check_numbers(path, f"the profile {profile} refers to the entries", rows, count)
         found.append((rows, values.reshape(width, -1).T))
     dtype = np.result_type(*(values.dtype for _, values in found)) if found else np.dtype(np.float64)
     filled = np.full((count, width), np.nan if dtype.kind == "f" else 0, dtype)

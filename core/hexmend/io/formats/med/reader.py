@@ -14,18 +14,12 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, node_count, to_vtk_order
+from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED, check_suffix, unread_note
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
-from hexmend.io.formats.med.arrays import (
-    KIND_OF_TYPE,
-    ORDER,
-    TYPE_OF_KIND,
-    decode_names,
-    max_bytes,
-    read_array,
-    read_integers,
-)
+from hexmend.io.formats.med.arrays import KIND_OF_TYPE, ORDER, TYPE_OF_KIND, decode_names, read_array, read_integers
 from hexmend.io.formats.med.fields import read_fields
 from hexmend.io.storage import subprocess_reader
 
@@ -101,9 +95,7 @@ def _block(path: Path, type: str, cells: Mapping, n_nodes: int, families: Mappin
     if numbers.ndim != 1 or numbers.size % width or numbers.dtype.kind not in "iu":
         raise FileError(path, f"{type}/NOD holds {numbers.size} numbers: expected {width} a cell", DAMAGED)
     nodes = numbers.astype(np.int64).reshape(width, -1).T - 1
-    if nodes.size and (nodes.min() < 0 or nodes.max() >= n_nodes):
-        wrong = int(nodes[(nodes < 0) | (nodes >= n_nodes)][0]) + 1
-        raise FileError(path, f"{type}/NOD refers to node {wrong}: expected 1 to {n_nodes}", DAMAGED)
+    check_numbers(path, f"{type}/NOD refers to the nodes", nodes, n_nodes)
     nodes = np.ascontiguousarray(to_vtk_order(nodes, kind, ORDER))
     return Block(kind, nodes, _ids(path, cells, len(nodes)), _sets(path, cells, len(nodes), families))
 
@@ -119,15 +111,13 @@ def _sets(path: Path, group: Mapping, count: int, families: Mapping) -> dict[str
         return {}
     family_numbers = read_integers(path, group, "FAM", count)
     order = np.argsort(family_numbers, kind="stable")
-    in_order, found, n_members = family_numbers[order], {}, 0
+    in_order, found, budget = family_numbers[order], {}, MemoryBudget(path, path.stat().st_size)
     for family in families.values():
         if "GRO" not in family:
             continue
         begin, end = np.searchsorted(in_order, [number := int(family.attrs["NUM"]), number + 1])
         names = decode_names(read_array(path, family["GRO"], "NOM")) if end > begin else []
-        n_members += len(names) * int(end - begin)
-        if n_members > max_bytes(path):
-            raise FileError(path, "its groups have far more members than a file of its size can define", DAMAGED)
+        budget.charge(8 * len(names) * int(end - begin), "its groups")
         for name in names:
             found.setdefault(name, []).append(order[begin:end])
     return {name: np.sort(np.concatenate(members)) for name, members in found.items()}

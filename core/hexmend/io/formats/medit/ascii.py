@@ -10,7 +10,6 @@ from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import register
 from hexmend.io.base.remedies import check_suffix
-from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, blanked, fields_of_words, word_ranges
 from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.io.storage.binary_rows import FileBytes
@@ -24,10 +23,27 @@ def read(path: Path) -> Mesh:
     """Read a Medit file; coordinates are read as float64 in every version of the format."""
     data = FileBytes(path)
     cursor = ByteCursor(path, data if data.find(b"#") < 0 else blanked(data[:], b"#"))
+    return to_mesh(path, *_sections(cursor)[:4])
+
+
+def locate(path: Path) -> TextCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    data = path.read_bytes()
+    cursor = ByteCursor(path, blanked(data, b"#"))
+    points, *_, place = _sections(cursor)
+    first, last = word_ranges(cursor.data, *place)
+    words = 4 * np.arange(len(points))[:, None] + np.arange(3)
+    return TextCoordinates(data, points, fields_of_words(first[words], last[words]))
+
+
+def _sections(
+    cursor: ByteCursor,
+) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], list[str], tuple[int, int]]:
+    """Read coordinates, references, other sections by name, names of unused ones, and the byte range of vertices."""
     if cursor.next_word() != "MeshVersionFormatted":
         raise cursor.error("does not begin with MeshVersionFormatted", check_suffix("a Medit file"))
     cursor.parse_count(cursor.next_word(), "the version")
-    points = refs = None
+    points = refs = place = None
     sections: dict[str, np.ndarray] = {}
     skipped: list[str] = []
     dimension = 0
@@ -41,8 +57,10 @@ def read(path: Path) -> Mesh:
                 raise cursor.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
         elif key == "Vertices":
             count = cursor.parse_count(cursor.next_word(), "the number of Vertices")
+            begin = cursor.pos
             rows = cursor.read_numbers("Vertices", count, 4, np.float64)
             points, refs = np.ascontiguousarray(rows[:, :3]), _to_references(cursor, rows[:, 3])
+            place = begin, cursor.pos
         elif key.lower() in _KNOWN:
             section = _KNOWN[key.lower()]
             count = cursor.parse_count(cursor.next_word(), f"the number of {section.name}")
@@ -55,7 +73,7 @@ def read(path: Path) -> Mesh:
         raise cursor.error("has no section Vertices")
     if "Hexahedra" not in sections and not cursor.data[:].rstrip().endswith(b"End"):
         raise cursor.error(f"ends at {cursor.location} without Hexahedra")
-    return to_mesh(path, points, refs, sections, skipped)
+    return points, refs, sections, skipped, place
 
 
 def _to_references(cursor: ByteCursor, numbers: np.ndarray) -> np.ndarray:
@@ -79,22 +97,6 @@ def _skip(cursor: ByteCursor) -> bool:
         if len(words) < 2:
             words.append(word)
     return words not in ([], ["0"])
-
-
-def locate(path: Path) -> TextCoordinates:
-    """Find the coordinates of a file that the reader has accepted."""
-    data = path.read_bytes()
-    cursor = ByteCursor(path, blanked(data, b"#"))
-    while not cursor.at_end:
-        if cursor.next_word() == "Vertices":
-            count = cursor.parse_count(cursor.next_word(), "the number of Vertices")
-            begin = cursor.pos
-            rows = cursor.read_numbers("Vertices", count, 4, np.float64)
-            first, last = word_ranges(cursor.data, begin, cursor.pos)
-            words = 4 * np.arange(count)[:, None] + np.arange(3)
-            fields = fields_of_words(first[words], last[words])
-            return TextCoordinates(data, np.ascontiguousarray(rows[:, :3]), fields)
-    raise CoordinatesError("it has no section Vertices")
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -1,159 +1,98 @@
 """Nastran's bulk data as cards: fields of 8 or 16 columns, or between commas, with their continuations.
 
-Blocks of consecutive cards of one name and field width, whose fields are cut out by array operations.
-
-Cards in free fields, or with comments or blank lines inside, are left to `hexmend.io.formats.nastran.bulk`.
+Lines are cut into fields by array operations, thousands at a time; those with commas, tabs or comments one by one.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import quoted
-from hexmend.io.base.numbering import runs
 
-#: Shorter runs of cards are read one by one.
-_MIN_CARDS = 32
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
-#: Class of each byte: 0 blank, 1 plain text, 2 not allowed in fixed fields (tabs, commas, comments, other encodings).
-_BYTE_CLASS = np.where(np.arange(256) > ord(" "), 1, 0).astype(np.uint8)
-_BYTE_CLASS[[*range(10), *range(11, 32), *b",$", *range(127, 256)]] = 2
-
-
-@dataclass(frozen=True, eq=False)
-class CardBlock:
-    """Consecutive cards of one name.
-
-    Parameters
-    ----------
-    first, last : int
-        Their lines, from 0: first to last - 1.
-    name : str
-    fields : (cards, fields) array of bytes
-        Their fields after the name, continuations joined.
-    """
-
-    first: int
-    last: int
-    name: str
-    fields: np.ndarray
-
-
-class Lines:
-    """The lines of a file.
-
-    Parameters
-    ----------
-    data : bytes
-        Its content, with lines that end in "\\n".
-    """
-
-    def __init__(self, data: bytes):
-        self._data = data
-        self._padded = np.frombuffer(data + b" " * 64, np.uint8)
-        self._bytes = self._padded[: len(data)]
-        ends = np.flatnonzero(self._bytes == ord("\n"))
-        if not data.endswith(b"\n"):
-            ends = np.append(ends, len(data))
-        self.start = np.concatenate([[0], ends[:-1] + 1])
-        self.end = ends
-
-    def __len__(self) -> int:
-        return len(self.start)
-
-    def text(self, first: int, last: int) -> list[str]:
-        """Return the lines first to last - 1."""
-        return self._data[self.start[first] : self.end[last - 1]].decode("latin-1").split("\n") if last > first else []
-
-    def card_blocks(self, begin: int, names: Collection[str]) -> list[CardBlock]:
-        """Find the blocks of cards of these names from line `begin` on, in order."""
-        if begin >= len(self):
-            return []
-        heads = np.char.strip(np.concatenate([self._fields(chunk, 0, 8) for chunk in self._chunks(begin)])[:, 0])
-        letters = heads.astype("S1").view(np.uint8)
-        large = (letters == ord("*")) | np.char.endswith(heads, b"*")
-        line_class = np.maximum.reduceat(_BYTE_CLASS[self._bytes], self.start[begin:])
-        irregular = line_class != 1
-        continued = (line_class == 0) | (letters == 0) | np.isin(letters, [*b"+*$"])
-        cards = np.flatnonzero(~continued)
-        if not len(cards):
-            return []
-        counts = np.diff(np.append(cards, len(heads)))
-        irregular |= large != np.repeat(large[cards], counts) if cards[0] == 0 else True
-        irregular = np.logical_or.reduceat(irregular, cards)
-        kinds, which = np.unique(heads[cards], return_inverse=True)
-        known = [kind.decode("latin-1").rstrip("*") in names and not kind.startswith(b"*") for kind in kinds]
-        blocks = []
-        for run in runs(which, counts, irregular):
-            if run.stop - run.start < _MIN_CARDS or irregular[run.start] or not known[which[run.start]]:
-                continue
-            first, count = begin + int(cards[run.start]), int(counts[run.start])
-            last = first + count * (run.stop - run.start)
-            width = 16 if large[cards[run.start]] else 8
-            fields = np.concatenate([self._fields(chunk, 8, width) for chunk in self._chunks(first, last)])
-            name = kinds[which[run.start]].decode("latin-1").rstrip("*")
-            blocks.append(CardBlock(first, last, name, fields.reshape(run.stop - run.start, -1)))
-        return blocks
-
-    def _chunks(self, first: int, last: int | None = None) -> list[range]:
-        last = len(self) if last is None else last
-        return [range(k, min(k + _CHUNK_LINES, last)) for k in range(first, last, _CHUNK_LINES)]
-
-    def _fields(self, lines: range, left: int, width: int) -> np.ndarray:
-        """Fields of lines, (lines, fields) of bytes: the name (left = 0), or the 64 columns after it (left = 8)."""
-        start, end = self.start[lines.start : lines.stop] + left, self.end[lines.start : lines.stop]
-        columns = 64 if left else 8
-        letters = sliding_window_view(self._padded, columns)[np.minimum(start, end)]
-        letters[np.arange(columns) >= (end - start)[:, None]] = ord(" ")
-        return letters.view(f"S{width}")
-
-
-def natural_numbers(fields: np.ndarray) -> np.ndarray | None:
-    """Parse natural numbers, 0 for blanks; return None where a field holds anything else.
-
-    Parameters
-    ----------
-    fields : array of bytes
-
-    Returns
-    -------
-    int64 array of the same shape, or None
-
-    Examples
-    --------
-    >>> natural_numbers(np.array([b"12      ", b"      7", b""]))
-    array([12,  7,  0])
-    """
-    letters = np.ascontiguousarray(fields).view(np.uint8).reshape(*fields.shape, -1)
-    values, begun, ended = (np.zeros(fields.shape, kind) for kind in (np.int64, bool, bool))
-    for k in range(letters.shape[-1]):
-        digit = letters[..., k] - np.uint8(ord("0"))  # bytes below "0" wrap round to more than 9
-        is_digit = digit < 10
-        if (is_digit & ended).any() or not (is_digit | (letters[..., k] == ord(" ")) | (letters[..., k] == 0)).all():
-            return None
-        values = np.where(is_digit, 10 * values + digit, values)
-        ended |= begun & ~is_digit
-        begun |= is_digit
-    return values
-
-
-#: Line (from 1), name and fields of a card.
-Card = tuple[int, str, list[str]]
+#: Columns of a line: name, fields, and the name of the line that continues it.
+_COLUMNS = 80
+#: True for bytes by which fields are not in fixed columns: tabs, commas, comments, other control codes and encodings.
+_IS_IRREGULAR = np.isin(np.arange(256), [*range(10), *range(11, 32), *b",$", *range(127, 256)])
 
 _BEGIN = re.compile(rb"^[ \t\v\f]*BEGIN", re.IGNORECASE | re.MULTILINE)
 _EXPONENT = re.compile(r"([+-]?[0-9.]+)(?:[ED]([+-]?)|([+-]))([0-9]+)", re.IGNORECASE)
 
-#: Fields of a line after its name: eight of 8 columns, or four of 16.
-_SMALL_FIELDS = [slice(k, k + 8) for k in range(8, 72, 8)]
-_LARGE_FIELDS = [slice(k, k + 16) for k in range(8, 72, 16)]
+
+@dataclass(frozen=True, eq=False)
+class Cards:
+    """Cards of one name in a part of a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file; errors name it.
+    name : str
+    lines : (k,) int64
+        Their first lines, from 1.
+    texts : (f,) array of bytes
+        Fields of all cards of the part.
+    begins, ends : (k,) int64
+        Ranges of the fields of each card after its name, continuations joined.
+    """
+
+    path: Path
+    name: str
+    lines: np.ndarray
+    texts: np.ndarray
+    begins: np.ndarray
+    ends: np.ndarray
+
+    def fields(self, first: int, last: int) -> np.ndarray:
+        """Fields first to last - 1 of each card after its name, (k, last - first) bytes; blank where it has fewer."""
+        at = self.begins[:, None] + np.arange(first, last)
+        found = np.strings.strip(self.texts[np.minimum(at, len(self.texts) - 1)])
+        return np.where(at < self.ends[:, None], found, b"")
+
+    def integers(self, first: int, last: int) -> np.ndarray:
+        """Whole numbers in such fields, (k, last - first) int64, 0 for a blank one; `FileError` names card and line."""
+        return self._parsed(first, last, np.int64, self._integer)
+
+    def reals(self, first: int, last: int) -> np.ndarray:
+        """Real numbers in such fields, float64, 0 for a blank one; an exponent may have the letter D or none: 1.5-3."""
+        return self._parsed(first, last, np.float64, self._real)
+
+    def error(self, at: int, problem: str, remedy: str = "Correct the file.") -> FileError:
+        """Make the error to raise for a card, whose name and line begin the sentence."""
+        return FileError(self.path, f"{self.name} in line {self.lines[at]} {problem}", remedy)
+
+    def _parsed(self, first: int, last: int, dtype: type, parse: Callable[[str, int], Any]) -> np.ndarray:
+        fields = self.fields(first, last)
+        fields = np.where(fields == b"", b"0", fields)
+        try:
+            if b"_" not in fields.tobytes():  # which Python allows in numbers
+                return fields.astype(dtype)
+        except (ValueError, OverflowError):
+            pass
+        rows = enumerate(fields.tolist())
+        return np.array([[parse(word.decode("latin-1"), at) for word in row] for at, row in rows], dtype)
+
+    def _integer(self, word: str, at: int) -> int:
+        digits = word[1:] if word[0] in "+-" else word
+        if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
+            raise self.error(at, f"holds {quoted(word)}: expected a whole number")
+        return int(word)
+
+    def _real(self, word: str, at: int) -> float:
+        found = _EXPONENT.fullmatch(word)
+        try:
+            return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
+        except ValueError:
+            raise self.error(at, f"holds {quoted(word)}: expected a number") from None
 
 
 class BulkData:
@@ -165,98 +104,111 @@ class BulkData:
         The file; errors name it.
     data : bytes
         Its content, with lines that end in "\\n".
+
+    Attributes
+    ----------
+    start, end : (lines,) int64
+        Offsets of the first byte of each line, and of its line end.
     """
 
     def __init__(self, path: Path, data: bytes):
-        self.path, self.lines = path, Lines(data)
-        found = _BEGIN.search(data)
-        self._begin = int(np.searchsorted(self.lines.start, found.end(), "right")) if found else 0
+        self._path, self._data = path, data
+        self._padded = np.frombuffer(data + b" " * _COLUMNS, np.uint8)
+        ends = np.flatnonzero(self._padded[: len(data)] == ord("\n"))
+        self.end = ends if data.endswith(b"\n") else np.append(ends, len(data))
+        self.start = np.concatenate([[0], self.end[:-1] + 1])
 
-    def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
-        """Make the error to raise."""
-        return FileError(self.path, problem, remedy)
+    def cards(self) -> Iterator[Cards]:
+        """Iterate over the cards up to ENDDATA: in each part of the file, those of one name after another.
 
-    def cards_and_blocks(self, names: Collection[str]) -> Iterator[Card | CardBlock]:
-        """Iterate over the cards up to ENDDATA in order; cards of these names come as blocks where possible."""
-        line = self._begin
-        for block in self.lines.card_blocks(line, names):
-            for card in self.cards(line, block.first):
-                yield card
-                if card[1] == "ENDDATA":
+        Raises
+        ------
+        FileError
+            For a continuation whose name is not the one that its card declares.
+        """
+        found = _BEGIN.search(self._data)
+        begin = int(np.searchsorted(self.start, found.end(), "right")) if found else 0
+        while begin < len(self.start):
+            end = begin + _CHUNK_LINES
+            while end < len(self.start) and not self._data[self.start[end] : self.start[end] + 1].isalpha():
+                end += 1  # to a line that begins a card
+            names, lines, texts, bounds = self._cut(begin, min(end, len(self.start)))
+            begin = end
+            kinds, first, which = np.unique(names, return_index=True, return_inverse=True)
+            for kind in np.argsort(first).tolist():
+                if kinds[kind] == b"ENDDATA":
                     return
-            yield block
-            line = block.last
-        yield from self.cards(line, len(self.lines))
+                at = np.flatnonzero(which == kind)
+                yield Cards(self._path, kinds[kind].decode("latin-1"), lines[at], texts, bounds[at], bounds[at + 1])
 
-    def cards(self, first: int, last: int) -> Iterator[Card]:
-        """Iterate over the cards of lines first to last - 1, up to ENDDATA, with stripped fields."""
-        card_line, name, fields, announced = 0, "", [], ""
-        for k, line in enumerate(self.lines.text(first, last), first):
-            if "$" in line:
-                line = line[: line.index("$")]
-            if not line or line.isspace():
-                continue
-            head, own = _split_line(line)
-            before, announced = announced, _continuation(line)
-            if head[:1] in ("", "+", "*"):  # continues the card before
-                if name:
-                    own_name = head.lstrip("+*").replace(" ", "")
-                    if own_name and before and own_name != before:
-                        problem = f"line {k + 1} continues a card as {quoted(head)}, but {name} before it declares"
-                        remedy = "Put each continuation behind its card."
-                        raise self.error(f"{problem} {quoted(before)}", remedy)
-                    fields += own
-                continue
-            if name:
-                yield card_line, name, fields
-            card_line, name, fields = k + 1, head, own
-            if name == "ENDDATA":
-                break
-        if name:
-            yield card_line, name, fields
+    def _cut(self, begin: int, end: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Cut lines into cards: names, first lines from 1, fields of all cards, and their bounds (k + 1,)."""
+        start, length = self.start[begin:end], self.end[begin:end] - self.start[begin:end]
+        letters = sliding_window_view(self._padded, _COLUMNS)[start]
+        letters[np.arange(_COLUMNS) >= length[:, None]] = ord(" ")
+        irregular = np.flatnonzero(_IS_IRREGULAR[letters].any(axis=1))
+        cut = [_split(self._data[self.start[begin + k] : self.end[begin + k]]) for k in irregular.tolist()]
+        heads = _with_rows(_names(letters[:, :8]), irregular, [head for head, _, _ in cut])
+        marks = _with_rows(_names(letters[:, 72:]), irregular, [mark for _, mark, _ in cut])
+        large = np.strings.endswith(heads, b"*") | np.strings.startswith(heads, b"*")
+        columns = np.ascontiguousarray(letters[:, 8:72])
+        fields = columns.view("S8").astype("S16")
+        fields[large, :4] = columns[large].view("S16")
+        fields = _with_rows(fields, irregular, [(own + [b""] * 8)[:8] for _, _, own in cut])
+        blank = (letters == ord(" ")).all(axis=1)
+        blank[irregular] = [not head and not any(own) for head, _, own in cut]
+        is_card = ~blank & ~np.isin(heads.astype("S1"), [b"", b"+", b"*"])
+        names = np.where(is_card, np.strings.rstrip(heads, b"*"), b"")
+        rows = np.flatnonzero(~blank & (np.cumsum(is_card) > 0))
+        rows = rows[: 1 + (names[rows] == b"ENDDATA").argmax()] if b"ENDDATA" in names else rows
+        self._check_continuations(begin + 1 + rows, heads[rows], names[rows], marks[rows])
+        cards = np.flatnonzero(is_card[rows])
+        n_fields = np.where(large[rows], 4, 8)
+        bounds = np.concatenate([[0], np.cumsum(n_fields)])[[*cards, len(rows)]]
+        texts = fields[rows][np.arange(8) < n_fields[:, None]]
+        return names[rows[cards]], begin + 1 + rows[cards], texts, bounds
 
-    def integer(self, word: str, line: int, name: str) -> int:
-        """Parse a whole number, 0 for a blank field; `FileError` names the card and its line."""
-        if not word:
-            return 0
-        if word.isdecimal() and word.isascii() and len(word) < 19:
-            return int(word)
-        digits = word[1:] if word[0] in "+-" else word
-        if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
-            raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a whole number")
-        return int(word)
-
-    def real(self, word: str, line: int, name: str) -> float:
-        """Parse a real number, 0 for a blank field; its exponent may have the letter D or none: 1.5D3, 1.5-3."""
-        try:
-            return float(word or 0)
-        except ValueError:
-            pass
-        found = _EXPONENT.fullmatch(word)
-        try:
-            return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
-        except ValueError:
-            raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a number") from None
+    def _check_continuations(self, lines: np.ndarray, heads: np.ndarray, names: np.ndarray, marks: np.ndarray) -> None:
+        """Check the names of lines that continue the line before them, where both have one."""
+        rows = 1 + np.flatnonzero((names[1:] == b"") & np.isin(marks[:-1].astype("S1"), [b"+", b"*"]))
+        for row, mark, head in zip(rows.tolist(), marks[rows - 1].tolist(), heads[rows].tolist(), strict=True):
+            declared, own = (text.lstrip(b"+*").replace(b" ", b"") for text in (mark, head))
+            if declared and own and declared != own:
+                card = names[:row][names[:row] != b""][-1].decode("latin-1")
+                problem = (
+                    f"line {lines[row]} continues a card as {quoted(head.decode('latin-1'))}, but {card} before it"
+                )
+                problem += f" declares {quoted(declared.decode('latin-1'))}"
+                raise FileError(self._path, problem, "Put each continuation behind its card.")
 
 
-def _continuation(line: str) -> str:
-    """Return the name in columns 73 to 80 that the line that continues a card has too, without its mark."""
-    if "," in line:
-        return ""
-    text = (line.expandtabs(8) if "\t" in line else line)[72:80].strip().upper()
-    return text.lstrip("+*").replace(" ", "") if text[:1] in ("+", "*") else ""
+def _names(letters: np.ndarray) -> np.ndarray:
+    """Texts of rows of eight letters, in upper case."""
+    return np.strings.upper(np.strings.strip(np.ascontiguousarray(letters).view("S8")[:, 0]))
 
 
-def _split_line(line: str) -> tuple[str, list[str]]:
-    """Name and fields of a line, in the number of fields of its format."""
-    if "," in line:
-        parts = [part.strip() for part in line.split(",")]
+def _with_rows(texts: np.ndarray, rows: np.ndarray, new: list) -> np.ndarray:
+    """Replace rows of texts, which may become longer."""
+    if not new:
+        return texts
+    values = np.array(new, "S")
+    texts = texts.astype(np.promote_types(texts.dtype, values.dtype), copy=False)
+    texts[rows] = values
+    return texts
+
+
+def _continuation_names(texts: np.ndarray) -> np.ndarray:
+    return np.strings.replace(np.strings.lstrip(texts, b"+*"), b" ", b"")
+
+
+def _split(line: bytes) -> tuple[bytes, bytes, list[bytes]]:
+    """Cut a line into its name, the name of the line that continues it, and the fields of its format."""
+    line = line.partition(b"$")[0]
+    if b"," in line:
+        parts = [part.strip() for part in line.split(b",")]
         head = parts[0].upper()
-        width = 4 if head.endswith("*") or head.startswith("*") else 8
-        own = parts[1 : 1 + width] + [""] * (width - len(parts[1 : 1 + width]))
-    else:
-        line = line.expandtabs(8) if "\t" in line else line
-        head = line[:8].strip().upper()
-        large = head.endswith("*") or head.startswith("*")
-        own = [line[part].strip() for part in (_LARGE_FIELDS if large else _SMALL_FIELDS)]
-    return (head.rstrip("*") if len(head) > 1 and not head.startswith("*") else head), own
+        return head, b"", parts[1 : 5 if head.startswith(b"*") or head.endswith(b"*") else 9]
+    line = line.expandtabs(8)
+    head = line[:8].strip().upper()
+    width = 16 if head.startswith(b"*") or head.endswith(b"*") else 8
+    return head, line[72:80].strip().upper(), [line[k : k + width].strip() for k in range(8, 72, width)]

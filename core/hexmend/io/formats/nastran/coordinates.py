@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import read_text_bytes
-from hexmend.io.formats.nastran.bulk import BulkData, CardBlock
-from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, is_exact, real_field
+from hexmend.io.formats.nastran.bulk import BulkData
+from hexmend.io.formats.nastran.cards import is_exact, real_field
 from hexmend.io.formats.nastran.reader import BulkModel
+from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.terminal_text import count_phrase
 
 #: Columns of a field in the small and in the large layout, and fields of a line.
@@ -123,18 +124,12 @@ def locate(path: Path) -> NastranCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
     data = read_text_bytes(path)
     bulk = BulkData(path, data.replace(b"\r\n", b" \n").replace(b"\r", b"\n"))
-    model, lines = BulkModel(bulk), []
-    for item in bulk.cards_and_blocks({"GRID", *KINDS_OF_CARD}):
-        if isinstance(item, CardBlock) and item.name != "GRID":
-            continue
-        if isinstance(item, CardBlock) and model.add_block(item):
-            lines.append(np.linspace(item.first, item.last, len(item.fields), endpoint=False).astype(np.int64))
-            continue
-        for card in bulk.cards(item.first, item.last) if isinstance(item, CardBlock) else [item]:
-            if card[1] == "GRID":
-                model.add_card(*card)
-                lines.append(np.array([card[0] - 1]))
-    return NastranCoordinates(data, bulk, model.points.array(), np.concatenate(lines))
+    model = BulkModel(path)
+    for cards in bulk.cards():
+        if cards.name == "GRID":
+            model.add_grid_points(cards)
+    lines, _, points = map(np.concatenate, zip(*model.grid_points, strict=True))
+    return NastranCoordinates(data, bulk, points, lines - 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +152,7 @@ class NastranCoordinates:
     points: np.ndarray
     lines: np.ndarray
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
         changed = ~(points == self.points)
         moved = np.flatnonzero(changed.any(axis=1))
@@ -174,7 +169,7 @@ class NastranCoordinates:
             between = self.data[end : after[0]] if len(ranges) > 1 else line_end
             pieces += [self.data[at:begin], between.join(one.encode("latin-1") for one in lines)]
             at = after[1]
-        with open(file, "wb") as out:
+        with open(files.add(target), "wb") as out:
             out.writelines(pieces)
             out.write(memoryview(self.data)[at:])
         widened = count_phrase(n_widened, "GRID card has", "GRID cards have")
@@ -187,7 +182,7 @@ class NastranCoordinates:
         ranges = [self._range(line)]
         if not is_large(self.data[slice(*ranges[0])].decode("latin-1")):
             return ranges
-        for k in range(line + 1, len(self.bulk.lines)):
+        for k in range(line + 1, len(self.bulk.start)):
             begin, end = self._range(k)
             text = self.data[begin:end].partition(b"$")[0]
             if text.strip():
@@ -197,5 +192,5 @@ class NastranCoordinates:
 
     def _range(self, line: int) -> tuple[int, int]:
         """Byte range of a line without its end."""
-        begin, end = int(self.bulk.lines.start[line]), int(self.bulk.lines.end[line])
+        begin, end = int(self.bulk.start[line]), int(self.bulk.end[line])
         return begin, end - (end > begin and self.data[end - 1 : end + 1] == b"\r\n")

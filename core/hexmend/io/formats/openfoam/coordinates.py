@@ -19,6 +19,7 @@ from hexmend.io.formats.openfoam.foam_file import FoamFile
 from hexmend.io.formats.openfoam.foam_text import replaced_points
 from hexmend.io.formats.openfoam.lists import read_vectors
 from hexmend.io.formats.openfoam.writer import create_marker, file_errors, replace_points
+from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.io.storage.temporary_files import make_folder, temporary_folder
 
 
@@ -35,7 +36,7 @@ class CaseCoordinates:
     files: CaseFiles
     points: np.ndarray
 
-    def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
+    def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Replace the points of the case that the target names, or copy the case to a new folder with other points.
 
         Returns a sentence on results that are not copied, and on coordinates that are rounded.

@@ -15,6 +15,7 @@ from hexmend.arrays import index_of, mask
 from hexmend.io.base.remedies import unread_note
 from hexmend.io.formats.vtk.grid import Grid
 from hexmend.io.formats.vtk.xml_document import Document
+from hexmend.kernels import closest_point
 
 #: Arrays of the numbers, from 0, that nodes and cells of a piece have in the whole mesh.
 NODE_ID, CELL_ID = "GlobalNodeId", "GlobalElementId"
@@ -73,16 +74,9 @@ def merge_grids(grids: Sequence[Grid], in_files: bool = False) -> Grid:
     grids = [grid for grid in grids if len(grid.points) or len(grid.types)] or list(grids[:1])
     counts = np.array([len(grid.points) for grid in grids])
     first = np.concatenate([[0], np.cumsum(counts)])
-    starts = np.concatenate([[0], np.cumsum([len(grid.nodes) for grid in grids])])
-    node_data, lost = _concatenate_common([grid.node_data for grid in grids])
-    cell_data, more = _concatenate_common([grid.cell_data for grid in grids])
-    if lost + more:
-        notes.append(unread_note(f"arrays that are missing or different in some pieces ({', '.join(lost + more)})"))
-    points, types = (np.concatenate([getattr(grid, name) for grid in grids]) for name in ("points", "types"))
-    start = np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, starts, strict=False))])
-    nodes = np.concatenate([_shift_nodes(grid, int(begin)) for grid, begin in zip(grids, first, strict=False)])
-    fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
-    whole = Grid(points, types, start, nodes, node_data, cell_data, fields)
+    whole, lost = join_grids(grids, [_shift_nodes(*pair) for pair in zip(grids, first.tolist(), strict=False)])
+    if lost:
+        notes.append(unread_note(f"arrays that are missing or different in some pieces ({', '.join(lost)})"))
     merged, phrase = _merge_nodes(whole, np.repeat(np.arange(len(grids)), counts) if in_files else None)
     ordered = _in_written_order(merged) if in_files else None
     if ordered is not None:
@@ -96,20 +90,25 @@ def _in_written_order(grid: Grid) -> Grid | None:
     counts = len(grid.points), len(grid.types)
     if not all(_is_numbering(ids, count) for ids, count in zip(numbers, counts, strict=True)):
         return None
-    order, cells = (np.argsort(ids) for ids in numbers)
+    node_data = {name: values for name, values in grid.node_data.items() if name != NODE_ID}
+    cell_data = {name: values for name, values in grid.cell_data.items() if name != CELL_ID}
+    return _chosen(replace(grid, node_data=node_data, cell_data=cell_data), *map(np.argsort, numbers))
+
+
+def _chosen(grid: Grid, nodes: np.ndarray, cells: np.ndarray) -> Grid:
+    """Return a grid of some nodes (k,) and cells (j,), in this order."""
     widths = np.diff(grid.start)[cells]
     start = np.concatenate([[0], np.cumsum(widths)])
     of_cells = np.arange(start[-1]) + np.repeat(grid.start[:-1][cells] - start[:-1], widths)
-    new_number = np.append(index_of(order, counts[0]), -1)  # nodes that no piece has stay -1
-    return Grid(
-        grid.points[order],
-        np.asarray(grid.types)[cells],
-        start,
-        new_number[grid.nodes[of_cells]],
-        {name: np.asarray(values)[order] for name, values in grid.node_data.items() if name != NODE_ID},
-        {name: np.asarray(values)[cells] for name, values in grid.cell_data.items() if name != CELL_ID},
-        grid.field_data,
-        grid.notes,
+    new_number = np.append(index_of(nodes, len(grid.points)), -1)  # nodes that no piece has stay -1
+    return replace(
+        grid,
+        points=grid.points[nodes],
+        types=np.asarray(grid.types)[cells],
+        start=start,
+        nodes=new_number[grid.nodes[of_cells]],
+        node_data={name: np.asarray(values)[nodes] for name, values in grid.node_data.items()},
+        cell_data={name: np.asarray(values)[cells] for name, values in grid.cell_data.items()},
     )
 
 
@@ -126,6 +125,30 @@ def _shift_nodes(grid: Grid, by: int) -> np.ndarray:
     return np.where((nodes >= 0) & (nodes < len(grid.points)), nodes + by, -1)
 
 
+def join_grids(grids: Sequence[Grid], nodes: Sequence[np.ndarray]) -> tuple[Grid, list[str]]:
+    """Put grids one after the other.
+
+    Parameters
+    ----------
+    grids : sequence of Grid
+    nodes : sequence of (k,) int
+        Nodes of the cells of each, counted through all of them.
+
+    Returns
+    -------
+    grid : Grid
+    lost : list of str
+        Names of arrays that are left out, since some of the grids lack them or have them in another width.
+    """
+    node_data, lost = _concatenate_common([grid.node_data for grid in grids])
+    cell_data, more = _concatenate_common([grid.cell_data for grid in grids])
+    points, types = (np.concatenate([getattr(grid, name) for grid in grids]) for name in ("points", "types"))
+    begins = np.cumsum([0, *(grid.start[-1] for grid in grids)])
+    start = np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, begins, strict=False))])
+    fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
+    return Grid(points, types, start, np.concatenate(nodes), node_data, cell_data, fields), lost + more
+
+
 def _concatenate_common(parts: Sequence[Mapping[str, np.ndarray]]) -> tuple[dict[str, np.ndarray], list[str]]:
     """Concatenate arrays that all pieces have with the same width; returns them and the names of the others."""
     common, lost = {}, []
@@ -140,23 +163,19 @@ def _concatenate_common(parts: Sequence[Mapping[str, np.ndarray]]) -> tuple[dict
 
 def _without_ghosts(grid: Grid) -> Grid:
     """Remove ghost cells and the nodes that only these use."""
-    marks = {name: np.asarray(grid.cell_data[name]) & bits for name, bits in GHOSTS.items() if name in grid.cell_data}
+    ghost = np.zeros(len(grid.types), bool)
+    for name in GHOSTS.keys() & grid.cell_data.keys():
+        ghost |= (np.asarray(grid.cell_data[name]) & GHOSTS[name]).reshape(len(ghost), -1).any(axis=1)
     data = {name: values for name, values in grid.cell_data.items() if name not in GHOSTS}
     node_data = {name: values for name, values in grid.node_data.items() if name not in GHOSTS}
-    ghost = np.zeros(len(grid.types), bool)
-    for mark in marks.values():
-        ghost |= mark.reshape(len(ghost), -1).any(axis=1)
     nodes = np.asarray(grid.nodes, np.int64)
+    grid = replace(grid, nodes=nodes, node_data=node_data, cell_data=data)
     if not ghost.any() or (nodes.size and (nodes.min() < 0 or nodes.max() >= len(grid.points))):
-        return replace(grid, nodes=nodes, node_data=node_data, cell_data=data, notes=())
-    widths = np.diff(grid.start)
-    dropped = mask(nodes[np.repeat(ghost, widths)], len(grid.points))
-    dropped[nodes[np.repeat(~ghost, widths)]] = False
-    types, start = np.asarray(grid.types)[~ghost], np.concatenate([[0], np.cumsum(widths[~ghost])])
-    nodes = (np.cumsum(~dropped) - 1)[nodes[np.repeat(~ghost, widths)]]
-    node_data = {name: np.asarray(values)[~dropped] for name, values in node_data.items()}
-    data = {name: np.asarray(values)[~ghost] for name, values in data.items()}
-    return Grid(grid.points[~dropped], types, start, nodes, node_data, data, grid.field_data)
+        return grid
+    of_ghosts = np.repeat(ghost, np.diff(grid.start))
+    dropped = mask(nodes[of_ghosts], len(grid.points))
+    dropped[nodes[~of_ghosts]] = False
+    return _chosen(grid, np.flatnonzero(~dropped), np.flatnonzero(~ghost))
 
 
 def _merge_nodes(grid: Grid, piece: np.ndarray | None) -> tuple[Grid, str]:
@@ -187,11 +206,7 @@ def _merge_nodes(grid: Grid, piece: np.ndarray | None) -> tuple[Grid, str]:
 
 def _keys_of_places(points: np.ndarray, piece: np.ndarray | None) -> np.ndarray:
     """Number the places of nodes (n, 3), (n,) int64; nodes of a place where one piece has several have their own."""
-    order = np.lexsort(points.T)
-    ordered = points[order]
-    begins = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
-    keys = np.empty(len(points), np.int64)
-    keys[order] = np.cumsum(begins) - 1
+    keys = closest_point.numbers_of_different_points(np.ascontiguousarray(points)).astype(np.int64)
     if piece is not None and len(points):
         pairs, counts = np.unique(keys * (piece.max() + 1) + piece, return_counts=True)
         several = np.isin(keys, pairs[counts > 1] // (piece.max() + 1))

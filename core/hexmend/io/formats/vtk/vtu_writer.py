@@ -1,4 +1,4 @@
-"""Writing of VTU: arrays as raw bytes at its end, compressed by zlib, or in decimals; it is read again to verify it."""
+"""Writing of VTU: arrays as raw bytes at its end, compressed by zlib, or in decimals."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.decimals import format_rows
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
-from hexmend.io.formats.vtk.xml_arrays import read_values
-from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
-from hexmend.io.storage.file_progress import advance, stage
+from hexmend.io.formats.vtk.xml_document import TYPES
+from hexmend.io.storage.file_progress import advance
 from hexmend.io.storage.parallel_map import parallel_map
 from hexmend.mesh.mesh import Mesh
 
@@ -22,8 +21,6 @@ from hexmend.mesh.mesh import Mesh
 _BLOCK = 1 << 20
 #: Level of zlib, of 9: higher ones take much longer and save little.
 _LEVEL = 1
-#: Share of the work that writing is; then the file is read again.
-_WRITING_SHARE = 0.8
 #: Characters kept for the attribute with the offset of an array behind the XML.
 _OFFSET_WIDTH = 25
 _NAMES = {code: name for name, code in TYPES.items() if name not in ("Bit", "String")}
@@ -41,29 +38,27 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 
 def write_grid(path: Path, grid: Grid, encoding: str) -> None:
-    """Write a VTU file of one piece, read it again and compare checksums.
+    """Write a VTU file of one piece.
 
     Raises
     ------
     FileError
-        For an array of a type that VTK does not have, and where the file differs from the data.
+        For an array of a type that VTK does not have.
     """
-    checksums: list[tuple[str, int]] = []
-    appended = None if encoding == "ascii" else _Appended()
-    with open(path, "wb") as file, stage(0.0, _WRITING_SHARE):
+    appended, sections = None if encoding == "ascii" else _Appended(), list(_sections(path, grid))
+    total = sum(values.nbytes for _, arrays in sections for values in arrays.values() if not isinstance(values, list))
+    with open(path, "wb") as file:
         compressor = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
         root = 'VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"'
         file.write(f'<?xml version="1.0" encoding="utf-8"?>\n<{root}{compressor}>\n<UnstructuredGrid>\n'.encode())
-        for section, arrays in _sections(path, grid):
+        for section, arrays in sections:
             file.write(f"{section}\n".encode())
             for name, values in arrays.items():
-                checksums.append(_write_array(file, name, values, appended))
+                _write_array(file, name, values, appended, total)
         file.write(b"</Piece>\n</UnstructuredGrid>\n")
         if appended is not None:
             appended.write(file)
         file.write(b"</VTKFile>\n")
-    with stage(_WRITING_SHARE, 1.0):
-        _verify(path, checksums)
 
 
 def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.ndarray | list[str]]]]:
@@ -141,13 +136,12 @@ class _Appended:
 
 
 def _write_array(
-    file: BinaryIO, name: str, values: np.ndarray | list[str], appended: _Appended | None
-) -> tuple[str, int]:
-    """Write an array, in decimals or later behind the XML; returns the name that will be read, and its checksum."""
-    title = name.translate(_REPLACEMENTS)
+    file: BinaryIO, name: str, values: np.ndarray | list[str], appended: _Appended | None, total: int
+) -> None:
+    """Write an array, in decimals or later behind the XML."""
     if isinstance(values, list):
         data = b"".join(text.replace("\0", "").encode("utf-8", "replace") + b"\0" for text in values)
-        head = f'<Array type="String" Name="{title.translate(_ENTITIES)}" NumberOfTuples="{len(values)}"'
+        head = f'<Array type="String" {array_attributes(Name=name)} NumberOfTuples="{len(values)}"'
         numbers = np.frombuffer(data, np.uint8)
     else:
         numbers = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
@@ -157,9 +151,11 @@ def _write_array(
     if appended is not None:
         appended.add(file, numbers)
     else:
-        file.write(b' format="ascii">\n' + (format_rows(numbers) if numbers.size else b""))
+        file.write(b' format="ascii">\n')
+        for part in row_chunks(len(numbers)):
+            file.write(format_rows(numbers[part]))
+            advance(numbers[part].nbytes, total)
         file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
-    return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
 
 
 def _write_compressed(file: BinaryIO, numbers: np.ndarray, total: int) -> None:
@@ -181,27 +177,3 @@ def _write_compressed(file: BinaryIO, numbers: np.ndarray, total: int) -> None:
     file.seek(begin)
     file.write(sizes.tobytes())
     file.seek(end)
-
-
-def _verify(path: Path, checksums: list[tuple[str, int]]) -> None:
-    """Raise `FileError` unless the file holds arrays with these names and checksums, in this order."""
-    with Document(path, "UnstructuredGrid") as document:
-        arrays = list(_arrays(document.root))
-        found = [(array.get("Name"), zlib.crc32(_as_written(document, array))) for array in arrays]
-    wrong = next((k for k, (a, b) in enumerate(zip(checksums, found, strict=False)) if a != b), None)
-    if wrong is not None or len(checksums) != len(found):
-        name = repr(checksums[wrong][0]) if wrong is not None else "one"
-        problem = f"the array {name} is not read again as it was written"
-        raise FileError(path, problem, "Write another format, or another place.")
-
-
-def _as_written(document: Document, array: XMLElement) -> np.ndarray:
-    values = read_values(document, array)
-    dtype = np.uint8 if array.get("type") == "String" else document.dtype(array)
-    return np.ascontiguousarray(values.astype(dtype, copy=False)).view(np.uint8)
-
-
-def _arrays(element: XMLElement) -> Iterator[XMLElement]:
-    """Yield all arrays in the order of the file."""
-    for child in element.children:
-        yield from [child] if child.name in ("DataArray", "Array") else _arrays(child)

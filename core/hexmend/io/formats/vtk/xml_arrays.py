@@ -53,7 +53,12 @@ def read_values(document: Document, array: XMLElement, count: int | None = None)
         return _read_decimals(document, array, dtype, count)
     bits = array.get("type") == "Bit"
     size = None if count is None else (count + 7) // 8 if bits else count * dtype.itemsize
-    data = _read_bytes(document, array, size)
+    stored = _StoredArray(document, array)
+    if size is None:
+        document.budget.charge(stored.length, array_title(array))
+    elif stored.length != size:
+        raise document.error(f"{array_title(array)} has {stored.length} bytes: expected {size}")
+    data = stored.read(0, stored.length)
     if len(data) % dtype.itemsize:
         raise document.error(f"{array_title(array)} has {len(data)} bytes: expected a multiple of {dtype.itemsize}")
     values = np.frombuffer(data, dtype)
@@ -84,46 +89,11 @@ def read_range(document: Document, array: XMLElement, begin: int, end: int) -> n
     FileError
         Where the array ends before.
     """
-    dtype, header_type = document.dtype(array), _header_type(document)
+    dtype, stored = document.dtype(array), _StoredArray(document, array)
     low, high = begin * dtype.itemsize, end * dtype.itemsize
-    stream = _RawStream(document, document.appended()[0] + document.count(array, "offset"))
-    kind = COMPRESSORS.get(document.root.get("compressor"))
-    length = blocks = _read_header(document, array, stream, 1)[0]
-    if kind is None:
-        at = header_type.itemsize + low
-    elif blocks:
-        _, whole, last, *packed = _read_header(document, array, stream, 3 + blocks)
-        whole = whole or last  # of a single block
-        length = whole * (blocks - 1) + (last or whole)
-    if end < begin or high > length:
-        raise document.error(f"{array_title(array)} has {length} bytes: expected {high} at least")
-    if begin == end:
-        return np.empty(0, dtype.newbyteorder("="))
-    if kind is None:
-        data = _take(document, array, stream, at, high - low)
-    else:
-        first, title = low // whole, array_title(array)
-        begins = (3 + blocks) * header_type.itemsize + np.concatenate([[0], np.cumsum(packed, dtype=np.int64)])
-        parts = []
-        for k in range(first, (high - 1) // whole + 1):
-            block = _take(document, array, stream, int(begins[k]), packed[k])
-            parts.append(_unpack(document, title, kind, block, last or whole if k == blocks - 1 else whole))
-        data = b"".join(parts)[low - first * whole : high - first * whole]
-    return np.frombuffer(data, dtype).astype(dtype.newbyteorder("="), copy=False)
-
-
-def _unpack(document: Document, title: str, kind: str, data: bytes | memoryview, size: int) -> bytes:
-    """Decompress a block of an array to its size."""
-    try:
-        block = _decompressor(kind)(data, size)
-    except MemoryError:
-        raise
-    except Exception as error:  # each of the three libraries raises its own type
-        detail = " ".join(str(error).split())[:80]
-        raise document.error(f"{title} is not valid {kind} ({detail})") from None
-    if len(block) != size:
-        raise document.error(f"{title} does not have the {size} bytes that it declares")
-    return block
+    if end < begin or high > stored.length:
+        raise document.error(f"{array_title(array)} has {stored.length} bytes: expected {high} at least")
+    return np.frombuffer(stored.read(low, high), dtype).astype(dtype.newbyteorder("="), copy=False)
 
 
 def read_strings(document: Document, array: XMLElement) -> list[str]:
@@ -157,118 +127,109 @@ def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def _read_bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
-    """Read and decompress the bytes of an array; `size` is the expected number, None if only the array gives it."""
-    encoding = array.get("format")
-    stream: _Stream
-    problem = f"{array_title(array)} has the format {encoding[:20]!r}: expected ascii, binary or appended"
-    if encoding == "appended":
-        begin, appended_encoding = document.appended()
-        begin += document.count(array, "offset")
-        if appended_encoding == "raw":
-            stream = _RawStream(document, begin)
+class _StoredArray:
+    """Bytes of an array in base64 or raw: a header with sizes, then the numbers, in blocks where they are compressed.
+
+    Parameters
+    ----------
+    document : Document
+    array : XMLElement
+        Its format is "binary" or "appended".
+
+    Attributes
+    ----------
+    length : int
+        Bytes of the numbers.
+    """
+
+    def __init__(self, document: Document, array: XMLElement):
+        self._document, self._title, form = document, array_title(array), array.get("format")
+        if form not in ("binary", "appended"):
+            problem = f"{self._title} has the format {form[:20]!r}: expected ascii, binary or appended"
+            raise document.error(problem)
+        self._is_base64 = True
+        if form == "appended":
+            begin, encoding = document.appended()
+            begin += document.count(array, "offset")
+            self._is_base64, self._left = encoding != "raw", document.size - begin
+            self._text: Callable[[int, int], bytes] = lambda at, n: document.bytes(begin + at, n)
         else:
-            stream = _Base64Stream(lambda at, n: document.bytes(begin + at, n), document.size - begin)
-    elif encoding == "binary":
-        text = b"".join(document.text(array).split())
-        stream = _Base64Stream(lambda at, n: text[at : at + n], len(text))
-    else:
-        raise document.error(problem)
-    compressor = document.root.get("compressor")
-    if compressor and compressor not in COMPRESSORS:
-        known = ", ".join(COMPRESSORS)
-        raise document.error(f"is packed by {compressor[:40]!r}: expected {known}", "Write it without compression.")
-    try:
-        if compressor:
-            return _read_compressed(document, array, stream, size, COMPRESSORS[compressor])
-        return _read_uncompressed(document, array, stream, size)
-    except binascii.Error:
-        raise document.error(f"{array_title(array)} is not valid base64") from None
+            text = b"".join(document.text(array).split())
+            self._text, self._left = (lambda at, n: text[at : at + n]), len(text)
+        compressor = document.root.get("compressor")
+        if compressor and compressor not in COMPRESSORS:
+            known = ", ".join(COMPRESSORS)
+            raise document.error(f"is packed by {compressor[:40]!r}: expected {known}", "Write it without compression.")
+        kind = document.root.get("header_type", "UInt32")
+        if kind not in ("UInt32", "UInt64"):
+            raise document.error(f"its header_type is {kind[:20]!r}: expected UInt32 or UInt64")
+        self._word = np.dtype(TYPES[kind]).newbyteorder(document.order)
+        self._kind = COMPRESSORS.get(compressor)
+        self.length = blocks = self._header(1)[0]
+        if self._kind:
+            _, whole, last, *self._packed = self._header(3 + blocks) if blocks else [0, 0, 0]
+            self._whole, self._last = whole or last, last or whole
+            self.length = self._whole * (blocks - 1) + self._last
 
+    def read(self, low: int, high: int) -> bytes | np.ndarray:
+        """Read the bytes from `low` to `high` of the numbers; of compressed ones the blocks that hold them."""
+        size = self._word.itemsize
+        if self._kind:
+            return self._decompress(low, high) if high > low else b""
+        advance(_SHARE * (high - low), self._document.size)
+        if self._is_base64 and not self._text(0, self._stored(size)).endswith(b"="):  # the header is not padded
+            return self._take(0, size + high)[size + low :]
+        return self._take(self._stored(size) + low, high - low)
 
-class _RawStream:
-    """Raw bytes of an array; `left` is the largest number that the file can hold."""
+    def _decompress(self, low: int, high: int) -> np.ndarray:
+        blocks, whole = len(self._packed), self._whole
+        first, end = low // whole, (high - 1) // whole + 1
+        begins = np.concatenate([[0], np.cumsum(self._packed, dtype=np.int64)]).tolist()
+        place = self._stored((3 + blocks) * self._word.itemsize)
+        data = memoryview(self._take(place + begins[first], begins[end] - begins[first]))
+        answer = np.empty(whole * (end - first), np.uint8)
 
-    def __init__(self, document: Document, begin: int):
-        self.document, self.begin, self.left = document, begin, document.size - begin
+        def unpack(k: int) -> None:
+            block = data[begins[k] - begins[first] : begins[k + 1] - begins[first]]
+            size, at = self._last if k == blocks - 1 else whole, (k - first) * whole
+            answer[at : at + size] = np.frombuffer(self._unpacked(k, block, size), np.uint8)
 
-    def read(self, at: int, size: int) -> bytes:
-        """Read `size` bytes from an offset of the stream; fewer at the end."""
-        return self.document.bytes(self.begin + at, size)
+        for k, _ in enumerate(parallel_map(unpack, range(first, end)), first):
+            advance(_SHARE * self._packed[k], self._document.size)
+        return answer[low - first * whole : high - first * whole]
 
-    def after(self, size: int) -> int:
-        """Offset behind the first `size` bytes, if these are stored separately."""
-        return size
+    def _unpacked(self, k: int, data: memoryview, size: int) -> bytes:
+        """Decompress block k to its size."""
+        title = f"block {k + 1} of {len(self._packed)} of {self._title}"
+        try:
+            block = _decompressor(self._kind)(data, size)
+        except MemoryError:
+            raise
+        except Exception as error:  # each of the three libraries raises its own type
+            detail = " ".join(str(error).split())[:80]
+            raise self._document.error(f"{title} is not valid {self._kind} ({detail})") from None
+        if len(block) != size:
+            raise self._document.error(f"{title} does not have the {size} bytes that it declares")
+        return block
 
-    def alone(self, size: int) -> bool:
-        """Return True if the first `size` bytes are encoded separately, with padding behind them."""
-        return False
+    def _header(self, count: int) -> list[int]:
+        """Read the first numbers of the header."""
+        return np.frombuffer(self._take(0, count * self._word.itemsize), self._word).tolist()
 
+    def _stored(self, size: int) -> int:
+        """Return the number of characters or bytes in which so many bytes are stored."""
+        return -(-size // 3) * 4 if self._is_base64 else size
 
-class _Base64Stream:
-    """Bytes of an array in base64; text(offset, count) gives characters. Methods are those of `_RawStream`."""
-
-    def __init__(self, text: Callable[[int, int], bytes], length: int):
-        self.text, self.left = text, length // 4 * 3
-
-    def read(self, at: int, size: int) -> bytes:
-        return binascii.a2b_base64(self.text(at, self.after(size)))[:size]
-
-    def after(self, size: int) -> int:
-        return -(-size // 3) * 4
-
-    def alone(self, size: int) -> bool:
-        return len(binascii.a2b_base64(self.text(0, self.after(size)))) == size
-
-
-_Stream = _RawStream | _Base64Stream
-
-
-def _read_uncompressed(document: Document, array: XMLElement, stream: _Stream, size: int | None) -> bytes:
-    header_type = _header_type(document)
-    length = _read_header(document, array, stream, 1)[0]
-    _check_size(document, array, length, size)
-    advance(_SHARE * length, document.size)
-    if stream.alone(header_type.itemsize):  # some programs encode the size separately
-        return _take(document, array, stream, stream.after(header_type.itemsize), length)
-    return _take(document, array, stream, 0, header_type.itemsize + length)[header_type.itemsize :]
-
-
-def _read_compressed(document: Document, array: XMLElement, stream: _Stream, size: int | None, kind: str) -> np.ndarray:
-    blocks = _read_header(document, array, stream, 1)[0]
-    if blocks == 0:
-        _check_size(document, array, 0, size)
-        return np.empty(0, np.uint8)
-    _, whole, last, *packed = _read_header(document, array, stream, 3 + blocks)
-    length = whole * (blocks - 1) + (last or whole)
-    _check_size(document, array, length, size)
-    begin = stream.after((3 + blocks) * _header_type(document).itemsize)
-    data = memoryview(_take(document, array, stream, begin, sum(packed)))
-    answer = np.empty(length, np.uint8)
-    begins = np.concatenate([[0], np.cumsum(packed, dtype=np.int64)]).tolist()
-
-    def unpack(k: int) -> None:
-        expected = whole if k < blocks - 1 else last or whole
-        title = f"block {k + 1} of {blocks} of {array_title(array)}"
-        block = _unpack(document, title, kind, data[begins[k] : begins[k + 1]], expected)
-        answer[k * whole : k * whole + expected] = np.frombuffer(block, np.uint8)
-
-    for k, _ in enumerate(parallel_map(unpack, range(blocks))):
-        advance(_SHARE * packed[k], document.size)
-    return answer
-
-
-def _read_header(document: Document, array: XMLElement, stream: _Stream, count: int) -> list[int]:
-    """Read the first `count` numbers of an array's header."""
-    header_type = _header_type(document)
-    return np.frombuffer(_take(document, array, stream, 0, count * header_type.itemsize), header_type).tolist()
-
-
-def _take(document: Document, array: XMLElement, stream: _Stream, at: int, size: int) -> bytes:
-    data = stream.read(at, size) if size <= stream.left else b""
-    if len(data) != size:
-        raise document.error(f"{array_title(array)} continues past the end of the data")
-    return data
+    def _take(self, at: int, size: int) -> bytes:
+        """Return bytes that are stored at an offset."""
+        data = self._text(at, self._stored(size)) if self._stored(size) <= self._left else b""
+        try:
+            data = binascii.a2b_base64(data)[:size] if self._is_base64 else data
+        except binascii.Error:
+            raise self._document.error(f"{self._title} is not valid base64") from None
+        if len(data) != size:
+            raise self._document.error(f"{self._title} continues past the end of the data")
+        return data
 
 
 def _decompressor(kind: str) -> Callable[[bytes, int], bytes]:
@@ -282,17 +243,3 @@ def _decompressor(kind: str) -> Callable[[bytes, int], bytes]:
     from lz4 import block
 
     return lambda data, size: block.decompress(data, uncompressed_size=size)
-
-
-def _check_size(document: Document, array: XMLElement, length: int, size: int | None) -> None:
-    if size is None:
-        document.budget.charge(length, array_title(array))
-    elif length != size:
-        raise document.error(f"{array_title(array)} has {length} bytes: expected {size}")
-
-
-def _header_type(document: Document) -> np.dtype:
-    kind = document.root.get("header_type", "UInt32")
-    if kind not in ("UInt32", "UInt64"):
-        raise document.error(f"its header_type is {kind[:20]!r}: expected UInt32 or UInt64")
-    return np.dtype(TYPES[kind]).newbyteorder(document.order)

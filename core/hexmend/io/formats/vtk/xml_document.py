@@ -30,8 +30,6 @@ _TAG = re.compile(rb"<(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 #: Largest number of elements.
 _MAX_ELEMENTS = 1_000_000
-#: Largest file in UTF-16, in bytes.
-_MAX_UTF16 = 1 << 28
 
 
 @dataclass(eq=False)
@@ -92,12 +90,7 @@ class Document:
         self.path = path
         self.file: BinaryIO = open(path, "rb")  # noqa: SIM115  (closed by __exit__)
         try:
-            self._encoding = None
-            head = self.file.read(4096)
-            if head[:2] in (b"\xff\xfe", b"\xfe\xff"):  # UTF-16, which excludes raw bytes
-                self.file, self._encoding = io.BytesIO(_convert_to_utf8(path, self.file)), "utf-8"
-                head = self.file.read(4096)
-            if not head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
+            if not self.file.read(4096).removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
                 raise FileError(path, "does not begin with <VTKFile ...>", check_suffix("a VTK XML file"))
             self.size = self.file.seek(0, io.SEEK_END)
             self.budget = MemoryBudget(path, self.size)
@@ -164,7 +157,7 @@ class Document:
 
     def _parse(self, kind: str) -> XMLElement:
         """Parse the elements up to the appended data."""
-        parser = expat.ParserCreate(self._encoding)
+        parser = expat.ParserCreate()
         top, count = XMLElement("", {}), 0
         stack = [top]
 
@@ -222,15 +215,3 @@ def array_title(array: XMLElement) -> str:
 
 class _AppendedDataReached(Exception):
     """The part of the file that is XML ends here."""
-
-
-def _convert_to_utf8(path: Path, file: BinaryIO) -> bytes:
-    """Convert a file in UTF-16 to UTF-8."""
-    with file:
-        if file.seek(0, io.SEEK_END) > _MAX_UTF16:
-            raise FileError(path, "is text in UTF-16, of more than 256 MB", "Write it in UTF-8.")
-        file.seek(0)
-        try:
-            return file.read().decode("utf-16").encode()
-        except UnicodeError:
-            raise FileError(path, "begins like text in UTF-16, but is not", DAMAGED) from None

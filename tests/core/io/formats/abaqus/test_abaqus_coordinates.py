@@ -74,17 +74,6 @@ def test_random_decks_keep_all_but_the_coordinates_of_moved_nodes(tmp_path_facto
             assert got == old
 
 
-def test_fixed_columns_stay_columns(tmp_path):
-    rows = [f"{k:7d}, {x:12.6f}, {y:12.6f}, {z:12.6f}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1)]
-    mesh = read(tmp_path / "a.inp", "*NODE\n" + "".join(rows) + TAIL)
-    points = mesh.points + [0, 0.5, 0]
-    data = replaced(tmp_path / "a.inp", mesh, points).decode()
-    assert {len(line) for line in data.split("\n")[1:9]} == {len(rows[0]) - 1}
-    assert data.split("\n")[1] == rows[0].replace(
-        ",     0.000000,     0.000000\n", ",          0.5,     0.000000"
-    ).rstrip("\n")
-
-
 PARTS = """\
 *Part, name=Block
 *Node

@@ -98,7 +98,7 @@ def wrong_profile(file, part):
     [
         (shorter, "CO holds 11 numbers: expected 1 for each of 12"),
         (lambda file, part: part.__delitem__("CO"), "has no CO"),
-        (wrong_profile, "the profile pfl1 refers to entries that do not exist: expected 1 to 2"),
+        (wrong_profile, "the profile pfl1 refers to the entries 3 to 3: expected 1 to 2"),
         (lambda file, part: file["CHA/temp"].attrs.__setitem__("NCO", 0), "the field temp has 0 components"),
         (lambda file, part: file["PROFILS"].__delitem__("pfl1"), "cannot be read as HDF5"),
     ],

@@ -41,8 +41,11 @@ def huge(file, step):
         (lambda file, step: step.__delitem__("NOE"), "has no nodes"),
         (lambda file, step: step.__delitem__("MAI/HE8/NOD"), "MAI/HE8 has no NOD"),
         (cut_connectivity, "HE8/NOD holds 15 numbers: expected 8 a cell"),
-        (lambda file, step: step["MAI/HE8/NOD"].__setitem__(3, 99), "HE8/NOD refers to node 99: expected 1 to 15"),
-        (huge, "declares more data than a file of its size can hold"),
+        (
+            lambda file, step: step["MAI/HE8/NOD"].__setitem__(3, 99),
+            "HE8/NOD refers to the nodes 1 to 99: expected 1 to 15",
+        ),
+        (huge, "more than a file of its size holds"),
         (lambda file, step: file["ENS_MAA/m"].attrs.__setitem__("ESP", 2), "is not in space"),
         (lambda file, step: file["ENS_MAA/m"].attrs.__setitem__("TYP", 1), "is structured"),
     ],

@@ -1,17 +1,14 @@
-"""Blocks of Nastran cards give the same mesh as single cards, and errors in them name the line."""
+"""Many Nastran cards give the same mesh in every layout, and errors in them name the line."""
 
 import numpy as np
 import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.formats.nastran.bulk import Lines
 from hexmend.mesh.cells import Cells
 from tests.core.grids import grid, scrambled
 from tests.core.io.base.test_capabilities import quadratic
 from tests.core.io.kept import assert_same
-
-NAMES = {"GRID", "CHEXA", "CQUAD4"}
 
 
 def many_cards():
@@ -34,7 +31,7 @@ def read(tmp_path, text):
 
 
 def commented(text):
-    """The same cards with comments, so that none is regular."""
+    """The same cards with comments, so that each line is cut by itself."""
     return "".join(f"{line} $\n" for line in text.splitlines())
 
 
@@ -54,16 +51,6 @@ def ended(text):
 @pytest.mark.parametrize("change", [commented, with_blank_lines, small, ended, lambda text: text.replace("\n", "\r\n")])
 def test_the_same_cards_give_the_same_mesh(change, text, tmp_path):
     assert_same(read(tmp_path, change(text)), read(tmp_path, text))
-
-
-def test_only_regular_cards_are_read_in_blocks(text):
-    found = Lines(text.encode()).card_blocks(2, NAMES)
-    assert [(one.name, one.fields.shape) for one in found] == [
-        ("GRID", (125, 8)), ("CHEXA", (64, 16)), ("CQUAD4", (96, 8))
-    ]  # fmt: skip
-    assert (found[0].first, found[0].last, found[1].first) == (2, 252, 252)
-    assert Lines(commented(text).encode()).card_blocks(2, NAMES) == []
-    assert Lines(with_blank_lines(text).encode()).card_blocks(2, NAMES) == []
 
 
 def test_hexes_with_some_mid_nodes_are_distinguished_from_those_with_all(tmp_path):

@@ -33,7 +33,6 @@ def test_text_is_read_as_xml_allows_it_to_be(tmp_path):
     forms = {
         "quotes": plain.replace('"', "'").encode(),
         "mark": b"\xef\xbb\xbf" + plain.encode(),
-        "utf-16": ('<?xml version="1.0" encoding="UTF-16"?>' + plain).encode("utf-16"),
         "latin": ('<?xml version="1.0" encoding="ISO-8859-1"?>' + plain).encode("latin-1"),
         "windows": ('<?xml version="1.0" encoding="windows-1252"?>' + plain).encode("cp1252"),
         "comment": plain.replace("0 1 2 3", "<!-- <DataArray> --> 0 1 2 3").encode(),

@@ -1,4 +1,4 @@
-"""VTK's XML format for surfaces (.vtp)."""
+"""VTK's formats for surfaces: XML (.vtp) and legacy (.vtk)."""
 
 from __future__ import annotations
 
@@ -6,9 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.formats.vtk.legacy_reader import read_polygons
 from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import Document
-from hexmend.io.surfaces.format import Polygons, SurfaceFormat, group_by_width, parse_surface, register
+from hexmend.io.surfaces.format import Polygons, group_by_width, parse_surface
+
+
+def read_legacy(path: Path) -> Polygons:
+    """Read the polygons of a legacy file."""
+    points, start, nodes = read_polygons(path)
+    return Polygons(points, group_by_width(start, nodes))
 
 
 def read(path: Path) -> Polygons:
@@ -32,6 +39,3 @@ def _polygons(document: Document) -> Polygons:
             faces += group_by_width(np.concatenate([[0], ends]), nodes + before)
         before += len(points[-1])
     return Polygons(np.concatenate(points), faces)
-
-
-register(SurfaceFormat(name="vtp", title="VTP", suffixes=(".vtp",), read=read))

@@ -1,1 +1,0 @@
-"""Metrics of solvers' own checks, one a file; each registers itself in METRICS."""

@@ -1,1 +1,0 @@
-"""Metrics of hexes against the target of their mesh."""
