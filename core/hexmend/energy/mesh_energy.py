@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned, dot, index_of
+from hexmend.boundary import SlidingBoundary
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
+from hexmend.energy.motion import HessianReduction, Motion
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import TargetScales
 from hexmend.energy.workspace import Workspace
 from hexmend.kernels import objective as kernels
-from hexmend.kernels import step_limits
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -41,13 +42,15 @@ class MeshEnergy(TargetScales):
         p and offset.
     omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
+    motion : Motion, optional
+        Of the nodes; by default they move as the linear motion of the mesh says, or freely.
 
     Attributes
     ----------
     unit : float
         Mean edge length of the mesh.
     nodes : (k,) int32
-        Free nodes; row i of a gradient belongs to node nodes[i].
+        Nodes that move independently of each other; row i of a gradient belongs to nodes[i] and all tied to it.
     target : TargetMatrices or None
         Of the mesh, in the energy's unit of length.
     barrier : FloorBarrier or None
@@ -65,34 +68,61 @@ class MeshEnergy(TargetScales):
     (0.0, (8, 3))
     """
 
-    #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
-    faceted = False
-    #: True if `infeasible_nodes` may find some.
-    limits_moves = False
     #: The ranks among which the hexes are divided; values and slopes are sums over all of them.
     ranks: Ranks = ONE_RANK
-    #: True if nodes move independently of each other, so that the energy of a part of the mesh has the same form.
-    has_parts = True
     #: The hexes that this rank counts, as an index of (m,).
     counted: slice | np.ndarray = slice(None)
 
-    def __init__(self, mesh: Mesh, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
+    def __init__(
+        self,
+        mesh: Mesh,
+        norm: ObjectiveNorm = SQUARES,
+        omitted: np.ndarray | None = None,
+        motion: Motion | None = None,
+    ):
         self.mesh = mesh
         self.norm = norm
         self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
-        self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        self.motion = motion or Motion(mesh)
+        self.nodes, self.reduction = self.motion.nodes, HessianReduction(self.motion)
         self._set_target(mesh)
         self.barrier: FloorBarrier | HeightBarrier | None = None
         self.surface: Term | None = None
         self._workspace = Workspace()
         self._ordered: list[BlockSparsity] = []  # none before first use; shared by copies
         self._evaluated: tuple[tuple, tuple, tuple] | None = None
+        self._differentiated: tuple[tuple, np.ndarray] | None = None
+
+    @classmethod
+    def on_surface(cls, sliding: SlidingBoundary, norm: ObjectiveNorm = SQUARES) -> MeshEnergy:
+        """Make the energy of a mesh whose boundary slides.
+
+        Nodes that slide on flat patches and straight curves get a linear motion: they stay on them exactly, and
+        Newton's method converges as it does inside.
+
+        Parameters
+        ----------
+        sliding : SlidingBoundary
+        norm : ObjectiveNorm
+
+        Returns
+        -------
+        MeshEnergy
+            Of `SlidingBoundary.linear_mesh`.
+        """
+        mesh = sliding.linear_mesh
+        return cls(mesh, norm, motion=Motion(mesh, sliding, sliding.curved_nodes))
+
+    @property
+    def limits_moves(self) -> bool:
+        """True if `infeasible_nodes` may find some."""
+        return self.motion.sliding is not None or (self.surface is not None and self.surface.limits_moves)
 
     @cached_property
     def slots(self) -> np.ndarray:
         """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
-        return index_of(self.nodes, self.mesh.n_nodes)[self.mesh.hexes]
+        return index_of(self.motion.free, self.mesh.n_nodes)[self.mesh.hexes]
 
     @property
     def sparsity(self) -> BlockSparsity:
@@ -104,15 +134,13 @@ class MeshEnergy(TargetScales):
     def ordered_nodes(self) -> BlockSparsity:
         """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
         if not self._ordered:
-            self._ordered.append(self._order_nodes())
+            owned, ranks = self.motion.owned, self.ranks
+            self._ordered.append(BlockSparsity(self.mesh, workspace=self._workspace, owned=owned, ranks=ranks))
         return self._ordered[0]
 
     @ordered_nodes.setter
     def ordered_nodes(self, nodes: BlockSparsity) -> None:
         self._ordered[:] = [nodes]
-
-    def _order_nodes(self) -> BlockSparsity:
-        return BlockSparsity(self.mesh, workspace=self._workspace)
 
     @property
     def cube_value(self) -> float:
@@ -148,16 +176,17 @@ class MeshEnergy(TargetScales):
         nodes : (j,) int
             Numbers of its nodes in this mesh.
         x : (n, 3) float64, optional
-            Positions of all nodes, in mean edge lengths; where nodes slide, those outside the part stay there.
+            Positions of all nodes, in mean edge lengths; a term of the boundary has those outside the part there.
 
         Returns
         -------
         MeshEnergy
             Of positions in mean edge lengths of this mesh, with its norm, omitted corners and target.
         """
-        energy = MeshEnergy(part, self.norm, self.omitted[hexes])
+        motion = self.motion.on_part(part, nodes)
+        energy = MeshEnergy(motion.mesh, self.norm, self.omitted[hexes], motion)
         self._give_to_part(energy, hexes)
-        return energy if self.surface is None else energy.with_surface(self.surface.on_part(nodes, part.free, x))
+        return energy if self.surface is None else energy.with_surface(self.surface.on_part(nodes, motion.mesh.free, x))
 
     def _give_to_part(self, energy: MeshEnergy, hexes: np.ndarray) -> None:
         """Give the unit, barrier and target of some hexes (k,) to the energy of a part."""
@@ -198,7 +227,6 @@ class MeshEnergy(TargetScales):
         """Return a copy with a term of the boundary in place of its own; see `with_objective`."""
         other = copy.copy(self)
         other.surface = surface
-        other.limits_moves = surface is not None and (self.limits_moves or surface.limits_moves)
         return other
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
@@ -206,16 +234,17 @@ class MeshEnergy(TargetScales):
         return self.as_points(points) / self.unit
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
-        """Points in the mesh's own unit of length, (n, 3), immutable; fixed nodes to the last bit where they were."""
+        """Points in the mesh's own unit of length, (n, 3), immutable.
+
+        Fixed nodes are to the last bit where they were, and linear constraints hold to the last bit.
+        """
         points = self.mesh.points.copy()
         np.multiply(self.as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
-        return as_immutable_owned(points)
+        return as_immutable_owned(self.mesh.constrained(points))
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
-        """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""
-        x, moved = self.as_points(x), np.empty(x.shape)
-        step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, moved)
-        return moved
+        """Return x (n, 3) with the free nodes moved by alpha times a step of `nodes`, (j, 3)."""
+        return self.ranks.complete(self.motion.moved(self.as_points(x), step, alpha))
 
     def hex_energies(self, x: np.ndarray, delta: float = 0.0, offset: float = 1.0) -> np.ndarray:
         """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
@@ -271,23 +300,45 @@ class MeshEnergy(TargetScales):
         return known[2]
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
-        """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
-        x, shares = self.as_points(x), self.corner_buffer
+        """Compute the gradient by `nodes` at points x (n, 3), (j, 3): (B.3), (B.21), (C.2)."""
+        x = self.as_points(x)
+        gradient = self._gradient_in_space(x, delta)
+        return self.motion.contract(x, gradient.copy() if self.motion.projected.size else gradient)
+
+    def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
+        """Compute the gradient by all free nodes, as if they were free in space, (k, 3).
+
+        Where nodes slide it is kept for the last x, and not to be changed: a line search needs it twice. It is known by
+        the array x: points are not changed in place between calls.
+        """
+        key = x, delta, self.norm, self.omitted, self.barrier, self.surface, self.target
+        known = self._differentiated  # one read, as another thread may replace it
+        if known is not None and all(one is other for one, other in zip(known[0], key, strict=True)):
+            return known[1]
+        shares = self.corner_buffer
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
             self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
         gradient = self.sum_at_nodes()
         if self.surface is not None:
-            gradient += self.surface.gradient(x, self.norm)[self.nodes]
+            gradient += self.surface.gradient(x, self.norm)[self.motion.free]
+        if self.motion.projected.size:
+            self._differentiated = key, gradient
         return gradient
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
-        """Return the Hessian with respect to the free nodes at points x (n, 3)."""
+        """Return the Hessian with respect to `nodes` at points x (n, 3)."""
         return Hessian(self, x, delta)
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
-        """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
-        return self.ranks.sum(dot(step, gradient))
+        """Compute the slope of `value` at x along a step (j, 3) of `nodes` from the gradient (j, 3) there.
+
+        Steps of nodes that would ascend on a surface are set to 0.
+        """
+        if not self.motion.projected.size:
+            return self.ranks.sum(dot(step, gradient))
+        forces = self._gradient_in_space(self.as_points(x), delta)
+        return self.ranks.sum(self.motion.slope(x, step, forces, self.node_lengths))
 
     def infeasible_nodes(
         self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
@@ -296,11 +347,15 @@ class MeshEnergy(TargetScales):
 
         With `changed`, (n,) bool, other nodes are known to be where they may.
         """
-        return None if self.surface is None else self.surface.beyond(self.as_points(x), self.as_points(moved))
+        found = [self.motion.infeasible(x, moved, changed)]
+        if self.surface is not None:
+            found.append(self.surface.beyond(self.as_points(x), self.as_points(moved)))
+        marks = [each for each in found if each is not None]
+        return self.motion.with_masters(np.logical_or.reduce(marks)) if marks else None
 
     def with_masters(self, marks: np.ndarray) -> np.ndarray:
         """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
-        return self.ranks.complete(marks)
+        return self.ranks.complete(self.motion.with_masters(marks))
 
     @property
     def corner_buffer(self) -> np.ndarray:
@@ -318,6 +373,6 @@ class MeshEnergy(TargetScales):
     def sum_at_nodes(self) -> np.ndarray:
         """Sum the contributions of the hexes at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
-        rows = np.empty((self.nodes.size, 3))
-        kernels.gather(self.corner_buffer.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
+        rows = np.empty((self.motion.free.size, 3))
+        kernels.gather(self.corner_buffer.reshape(-1, 3), corners.start, corners.items, self.motion.free, rows)
         return rows

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.arrays import index_of
-from hexmend.energy import LinearMotionEnergy, MeshEnergy
+from hexmend.energy import MeshEnergy
 from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
@@ -88,10 +88,8 @@ class _Colour:
         self._nodes = np.union1d(mesh.hexes[hexes], nodes)
         self._nodes = np.union1d(self._nodes, root[self._nodes])
         number = index_of(self._nodes, mesh.n_nodes)
-        own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]])
-        own = own.with_linear_motion(mesh.linear_motion.renumbered(number))
-        own = own.with_fixed(index[root[self._nodes]] < 0)
-        self._energy = LinearMotionEnergy(energy.on_part(own, hexes, self._nodes))
+        own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]]).with_fixed(index[root[self._nodes]] < 0)
+        self._energy = energy.on_part(own, hexes, self._nodes)
         # The one independent node at each hex, as a row of the gradient.
         rows = index_of(self._energy.nodes, own.n_nodes)[number[root[self._nodes]]]
         self._row = rows[own.hexes].max(axis=1)

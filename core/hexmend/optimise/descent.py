@@ -254,7 +254,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     limit += DESCENT.growth_summand
     worsened, halved, moved, changed = np.zeros(len(hexes), dtype=bool), None, None, None
     for trial in range(DESCENT.halvings):
-        before = None if energy.has_parts and not energy.limits_moves else moved
+        before = None if energy.motion.has_parts and not energy.limits_moves else moved
         del moved  # large meshes have no memory for two
         moved = energy.moved(x, step)
         if trial > 0:

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.arrays import index_of
-from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
+from hexmend.energy import MeshEnergy, Motion, ObjectiveNorm
 from hexmend.energy.norm import SQUARES
 from hexmend.mesh.mesh import Mesh
 from hexmend.ranks.rank_part import RankPart
@@ -24,17 +24,19 @@ class RankEnergy(MeshEnergy):
     Parameters
     ----------
     part : RankPart
-    norm, omitted
+    norm, omitted, motion
         See `MeshEnergy`.
     """
 
-    def __init__(self, part: RankPart, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
-        super().__init__(part.mesh, norm, omitted)
+    def __init__(
+        self,
+        part: RankPart,
+        norm: ObjectiveNorm = SQUARES,
+        omitted: np.ndarray | None = None,
+        motion: Motion | None = None,
+    ):
+        super().__init__(part.mesh, norm, omitted, motion or Motion(part.mesh, owned=part.owned))
         self.part, self.ranks, self.counted = part, part.ranks, part.counted
-        self.nodes = np.flatnonzero(part.mesh.free & part.owned).astype(np.int32)
-
-    def _order_nodes(self) -> BlockSparsity:
-        return BlockSparsity(self.mesh, workspace=self._workspace, owned=self.part.owned, ranks=self.ranks)
 
     @property
     def n_hexes(self) -> int:
@@ -65,6 +67,3 @@ class RankEnergy(MeshEnergy):
         energy = RankEnergy(own, self.norm, self.omitted[hexes])
         self._give_to_part(energy, hexes)
         return energy
-
-    def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
-        return self.ranks.complete(super().moved(x, step, alpha))

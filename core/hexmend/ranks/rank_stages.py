@@ -13,7 +13,7 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.ranks.rank_energy import RankEnergy
 from hexmend.ranks.rank_part import RankPart
-from hexmend.ranks.rank_sliding import RankSliding, RankSlidingEnergy
+from hexmend.ranks.rank_sliding import RankSliding
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.floors import BARRIER_SAFE
@@ -80,7 +80,8 @@ class RankStages(Stages):
             if balances:
                 fixed = yield from reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
                 given, kept = fixed.points, measure(fixed.points, mesh.hexes)
-            energy = RankSlidingEnergy(sliding, self.settings.first_norm_on(sliding.mesh))
+            norm = self.settings.first_norm_on(sliding.mesh)
+            energy = RankEnergy(sliding.part, norm, motion=sliding.motion)
             steps = self._shape(sliding.with_points(shape.points), energy, True)
             shape = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
             starts = [given, shape.points]

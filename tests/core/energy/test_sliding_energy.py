@@ -8,9 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.boundary import NodeClass, SlidingBoundary
-from hexmend.energy import ObjectiveNorm, SlidingEnergy
+from hexmend.energy import ObjectiveNorm
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid
 
 SOLIDS = {"block": lambda: grid(3, 2, 2), "cylinder": lambda: cylinder(16, 3), "ball": lambda: ball(3)}
@@ -33,7 +34,7 @@ def at(solid, seed, p):
     """Return the energy of a solid with moved nodes, their positions in mean edge lengths, and a tangential step."""
     there = slid(SOLIDS[solid](), 0.2, seed)
     sliding = SlidingBoundary(SOLIDS[solid]())
-    energy = SlidingEnergy(sliding, ObjectiveNorm(p))
+    energy = projected_energy(sliding, ObjectiveNorm(p))
     return energy, energy.to_edge_units(there.points), along_the_surface(sliding, there.points, seed)
 
 
@@ -74,9 +75,9 @@ def test_off_the_surface_nothing_is_coupled_and_no_eigenvalue_is_an_extreme(soli
     energy, x, _ = at(solid, seed, p)
     matrix = energy.hessian(x, 0.05).assembled(np.float64)
     whole = np.stack([matrix @ one for one in np.eye(matrix.shape[0])])
-    rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
+    rows = np.searchsorted(energy.nodes, energy.motion.projected)
     projector = np.eye(len(whole))
-    for row, along in zip(rows, energy.projectors(x), strict=True):
+    for row, along in zip(rows, energy.motion.turn(x), strict=True):
         projector[3 * row : 3 * row + 3, 3 * row : 3 * row + 3] = along
     off = np.eye(len(whole)) - projector
     np.testing.assert_allclose(off @ whole @ projector, 0, atol=1e-9 * np.abs(whole).max())

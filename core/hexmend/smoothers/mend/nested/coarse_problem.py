@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned
-from hexmend.energy import MeshEnergy, energy_of
+from hexmend.energy import MeshEnergy
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
@@ -92,7 +92,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy, least_hexes: int) -> CoarsePr
     if refinement is None:
         return None
     coarse = _coarse_mesh(mesh.points, energy.mesh, refinement)
-    problem = energy_of(coarse, energy.norm)
+    problem = MeshEnergy(coarse, energy.norm)
     if not problem.nodes.size:
         return None
     return CoarseProblem(energy, mesh.points, refinement, coarse, problem)

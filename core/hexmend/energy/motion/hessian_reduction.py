@@ -1,0 +1,122 @@
+"""Reduction of Hessians to the directions in which nodes move."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.arrays import index_of, mask
+from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.element_blocks import UPPER
+from hexmend.energy.motion.motion import Motion
+from hexmend.energy.sparsity import BlockSparsity
+from hexmend.kernels import conjugate_gradients
+from hexmend.mesh.mesh import Mesh
+
+
+class HessianReduction:
+    """Reduction of the Hessian H of all free nodes of a mesh to T^T H T; see `Motion`.
+
+    What follows from a sparsity pattern is found once.
+
+    Parameters
+    ----------
+    motion : Motion
+    """
+
+    def __init__(self, motion: Motion):
+        self._motion = motion
+        self._known_blocks: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
+        self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
+
+    def reduced(self, full: AssembledHessian, x: np.ndarray) -> AssembledHessian:
+        """Reduce a Hessian to T^T H T, with a multiple of the identity where nodes cannot move.
+
+        Parameters
+        ----------
+        full : AssembledHessian
+            Overwritten, and returned if no node is tied.
+        x : (n, 3) float64
+            Positions of the nodes.
+
+        Returns
+        -------
+        AssembledHessian
+        """
+        motion, matrix = self._motion, full
+        if motion.bent.size:
+            turn = motion.turn(x).astype(full.dtype).reshape(-1, 9)
+            slots, (scaled, factors), (turned, row, column) = self._blocks(full)
+            conjugate_gradients.scale_blocks(scaled, factors, full.off_diagonal)
+            if turned.size:
+                of_slot = np.tile(np.eye(3, dtype=full.dtype).ravel(), (full.sparsity.nodes.size, 1))
+                of_slot[slots] = turn
+                conjugate_gradients.turn_blocks(of_slot, turned, row, column, full.off_diagonal)
+            if motion.row is not None:
+                conjugate_gradients.turn_diagonal(turn, slots, full.diagonal)
+        if motion.row is not None:
+            matrix = self._merged(full, motion.row)
+            matrix.unreduced = full
+        if motion.bent.size:  # a scale between the extreme eigenvalues where they cannot move
+            own = index_of(matrix.sparsity.nodes, motion.mesh.n_nodes)[motion.bent[motion.restricted]]
+            conjugate_gradients.project_diagonal(turn[motion.restricted], own, matrix.diagonal)
+        return matrix
+
+    def _blocks(self, full: AssembledHessian) -> tuple:
+        """Slots of the nodes `bent`, and the blocks above the diagonal that T changes.
+
+        Blocks of nodes in planes and lines of the axes are only scaled: their numbers (b,) and factors (b, 9). Then the
+        numbers of the others with the slots of their rows and columns, (t,) each.
+        """
+        dtype, sparsity, motion = full.dtype, full.sparsity, self._motion
+        if (sparsity, dtype) not in self._known_blocks:
+            count, slots = sparsity.nodes.size, index_of(sparsity.nodes, motion.mesh.n_nodes)[motion.bent]
+            axial, skew = slots[: motion.axial], mask(slots[motion.axial :], count)
+            scales, bent = np.ones((count, 3), dtype), mask(axial, count)
+            scales[axial] = motion.scales
+            row = np.repeat(np.arange(count, dtype=np.int32), np.diff(sparsity.row_start))
+            column = sparsity.columns
+            turned = skew[row] | skew[column]
+            scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned).astype(np.int32)
+            factors = (scales[row[scaled], :, None] * scales[column[scaled], None]).reshape(-1, 9)
+            turned = np.flatnonzero(turned).astype(np.int32)
+            self._known_blocks[sparsity, dtype] = slots, (scaled, factors), (turned, row[turned], column[turned])
+        return self._known_blocks[sparsity, dtype]
+
+    @cached_property
+    def _ordered_nodes(self) -> BlockSparsity:
+        """The order of independent nodes: hexes use the master of each tied node."""
+        motion, mesh = self._motion, self._motion.mesh
+        fixed = ~mask(motion.nodes, mesh.n_nodes)
+        return BlockSparsity(Mesh(mesh.points, motion.root[mesh.hexes]).with_fixed(fixed))
+
+    def _merged(self, full: AssembledHessian, rows: np.ndarray) -> AssembledHessian:
+        """Sum the blocks of tied nodes and of their masters; `rows` (k,) is `Motion.row`."""
+        sparsity = self._ordered_nodes if full.sparsity.has_opposite else self._ordered_nodes.of_tetrahedra
+        matrix = AssembledHessian.zero(sparsity, full.dtype)
+        matrix.exponent = full.exponent
+        order, start, transposed, inside, inside_slot, slot_of = self._merge_map(full.sparsity, sparsity, rows)
+        blocks = full.off_diagonal[:-1].reshape(-1, 3, 3)
+        blocks[transposed] = blocks[transposed].transpose(0, 2, 1).copy()
+        if order.size:
+            matrix.off_diagonal[:-1] = np.add.reduceat(blocks.reshape(-1, 9)[order], start, axis=0)
+        np.add.at(matrix.diagonal, slot_of, full.diagonal)
+        own = blocks[inside] + blocks[inside].transpose(0, 2, 1)
+        np.add.at(matrix.diagonal, inside_slot, own.reshape(-1, 9)[:, UPPER])
+        return matrix
+
+    def _merge_map(self, whole: BlockSparsity, part: BlockSparsity, rows: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Map of the blocks of all free nodes to those of independent ones; it depends on the patterns alone."""
+        if whole not in self._maps:
+            slot_of = np.empty(whole.nodes.size, np.int64)
+            slot_of[whole.order] = part.order[rows]
+            row = slot_of[np.repeat(np.arange(whole.nodes.size), np.diff(whole.row_start))]
+            column, count = slot_of[whole.columns], part.nodes.size
+            key = np.minimum(row, column) * count + np.maximum(row, column)
+            inside = np.flatnonzero(row == column)
+            order = np.argsort(key, kind="stable")
+            order = order[row[order] != column[order]]
+            start = np.flatnonzero(np.diff(key[order], prepend=-1))  # the blocks of `part` are in this order
+            self._maps[whole] = order, start, np.flatnonzero(row > column), inside, row[inside], slot_of
+        return self._maps[whole]
