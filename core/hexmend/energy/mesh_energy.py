@@ -16,7 +16,6 @@ from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.motion import HessianReduction, Motion
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import TargetScales
 from hexmend.energy.workspace import Workspace
@@ -43,7 +42,8 @@ class MeshEnergy(TargetScales):
     omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
     motion : Motion, optional
-        Of the nodes; by default they move as the linear motion of the mesh says, or freely.
+        Of the nodes; by default they move as the linear motion of the mesh says, or freely. Values and slopes are sums
+        over the ranks among which the mesh is divided, gradients those of the nodes that this rank moves.
 
     Attributes
     ----------
@@ -51,6 +51,10 @@ class MeshEnergy(TargetScales):
         Mean edge length of the mesh.
     nodes : (k,) int32
         Nodes that move independently of each other; row i of a gradient belongs to nodes[i] and all tied to it.
+    n_hexes : int
+        Number of hexes, of all ranks.
+    counted : (m,) bool or slice
+        Hexes that this rank counts.
     target : TargetMatrices or None
         Of the mesh, in the energy's unit of length.
     barrier : FloorBarrier or None
@@ -68,11 +72,6 @@ class MeshEnergy(TargetScales):
     (0.0, (8, 3))
     """
 
-    #: The ranks among which the hexes are divided; values and slopes are sums over all of them.
-    ranks: Ranks = ONE_RANK
-    #: The hexes that this rank counts, as an index of (m,).
-    counted: slice | np.ndarray = slice(None)
-
     def __init__(
         self,
         mesh: Mesh,
@@ -85,12 +84,14 @@ class MeshEnergy(TargetScales):
         self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
         self.motion = motion or Motion(mesh)
-        self.nodes, self.reduction = self.motion.nodes, HessianReduction(self.motion)
+        self.nodes, self.ranks, owned = self.motion.nodes, self.motion.ranks, self.motion.owned
+        self.counted = slice(None) if owned is None else owned[mesh.hexes[:, 0]]
+        self.n_hexes = mesh.n_hexes if owned is None else self.ranks.sum(int(self.counted.sum()))
         self._set_target(mesh)
         self.barrier: FloorBarrier | HeightBarrier | None = None
         self.surface: Term | None = None
         self._workspace = Workspace()
-        self._ordered: list[BlockSparsity] = []  # none before first use; shared by copies
+        self.reduction = HessianReduction(self.motion, self._workspace)
         self._evaluated: tuple[tuple, tuple, tuple] | None = None
         self._differentiated: tuple[tuple, np.ndarray] | None = None
 
@@ -128,37 +129,17 @@ class MeshEnergy(TargetScales):
     def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex, or a corner tetrahedron for p = 1."""
         couples_hexes = self.norm.p != 1 or self.barrier is not None
-        return self.ordered_nodes if couples_hexes else self.ordered_nodes.of_tetrahedra
-
-    @property
-    def ordered_nodes(self) -> BlockSparsity:
-        """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
-        if not self._ordered:
-            owned, ranks = self.motion.owned, self.ranks
-            self._ordered.append(BlockSparsity(self.mesh, workspace=self._workspace, owned=owned, ranks=ranks))
-        return self._ordered[0]
-
-    @ordered_nodes.setter
-    def ordered_nodes(self, nodes: BlockSparsity) -> None:
-        self._ordered[:] = [nodes]
+        ordered = self.reduction.ordered_nodes
+        return ordered if couples_hexes else ordered.of_tetrahedra
 
     @property
     def cube_value(self) -> float:
         """Value of the energy if all hexes are cubes, or as the target wants them, and delta is 0."""
         return self.norm.cube_value * self.n_hexes
 
-    @property
-    def n_hexes(self) -> int:
-        """Number of hexes, of all ranks."""
-        return self.mesh.n_hexes
-
     def count(self, marks: np.ndarray) -> int:
         """Count the marked hexes of all ranks; marks (m,), marked where they are not 0."""
         return self.ranks.sum(int(np.count_nonzero(marks[self.counted])))
-
-    def smallest(self, values: np.ndarray, number: int, most: float) -> float:
-        """Return a value (m,) of the hexes of all ranks, the first being number 0 in ascending order; or `most`."""
-        return min(float(np.partition(values, number)[number]), most)
 
     def mean(self, values: np.ndarray) -> float:
         """Return the mean of a value (m,) of the hexes of all ranks."""

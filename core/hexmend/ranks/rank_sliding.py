@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from hexmend.boundary.sliding import SlidingBoundary, SlidingNodes
@@ -30,8 +28,8 @@ class RankSliding:
 
     Attributes
     ----------
-    part : RankPart
-        The part with the sliding nodes free.
+    mesh : Mesh
+        The mesh of the part with the sliding nodes free.
     nodes : (k,) int64
         Sliding nodes of the part that this rank owns, ascending.
     motion : Motion
@@ -51,17 +49,12 @@ class RankSliding:
         self.nodes = np.flatnonzero(slides & part.owned)
         free = mesh.with_fixed(mesh.fixed & ~slides)
         free._set(mean_edge_length=mesh.mean_edge_length)
-        self.part = replace(part, mesh=free)
+        self.mesh = free
         self._ranks = ranks
         self._own = here[part.owned[self._in_part[here]]]
         self._all = ranks.gather(self._own)
         sliding = np.concatenate([self.nodes, np.flatnonzero(slides & ~part.owned)])
-        self.motion = Motion(free, self, sliding, part.owned)
-
-    @property
-    def mesh(self) -> Mesh:
-        """The mesh of the part with the sliding nodes free."""
-        return self.part.mesh
+        self.motion = Motion(free, self, sliding, part.owned, ranks)
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """Return `mesh` with other points (n, 3) and the mean edge length of the whole mesh."""

@@ -31,7 +31,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, parts):
     """Assemble the matrix with another division of its slots."""
-    hessian.energy.ordered_nodes = BlockSparsity(hessian.energy.mesh, parts)
+    hessian.energy.reduction.ordered_nodes = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
 

@@ -11,6 +11,7 @@ from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.element_blocks import UPPER
 from hexmend.energy.motion.motion import Motion
 from hexmend.energy.sparsity import BlockSparsity
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import conjugate_gradients
 from hexmend.mesh.mesh import Mesh
 
@@ -23,10 +24,12 @@ class HessianReduction:
     Parameters
     ----------
     motion : Motion
+    workspace : Workspace
+        For the solution of systems.
     """
 
-    def __init__(self, motion: Motion):
-        self._motion = motion
+    def __init__(self, motion: Motion, workspace: Workspace):
+        self._motion, self._workspace = motion, workspace
         self._known_blocks: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
         self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
 
@@ -85,7 +88,13 @@ class HessianReduction:
         return self._known_blocks[sparsity, dtype]
 
     @cached_property
-    def _ordered_nodes(self) -> BlockSparsity:
+    def ordered_nodes(self) -> BlockSparsity:
+        """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
+        motion = self._motion
+        return BlockSparsity(motion.mesh, workspace=self._workspace, owned=motion.owned, ranks=motion.ranks)
+
+    @cached_property
+    def _independent_nodes(self) -> BlockSparsity:
         """The order of independent nodes: hexes use the master of each tied node."""
         motion, mesh = self._motion, self._motion.mesh
         fixed = ~mask(motion.nodes, mesh.n_nodes)
@@ -93,7 +102,7 @@ class HessianReduction:
 
     def _merged(self, full: AssembledHessian, rows: np.ndarray) -> AssembledHessian:
         """Sum the blocks of tied nodes and of their masters; `rows` (k,) is `Motion.row`."""
-        sparsity = self._ordered_nodes if full.sparsity.has_opposite else self._ordered_nodes.of_tetrahedra
+        sparsity = self._independent_nodes if full.sparsity.has_opposite else self._independent_nodes.of_tetrahedra
         matrix = AssembledHessian.zero(sparsity, full.dtype)
         matrix.exponent = full.exponent
         order, start, transposed, inside, inside_slot, slot_of = self._merge_map(full.sparsity, sparsity, rows)

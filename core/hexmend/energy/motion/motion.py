@@ -6,8 +6,9 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, index_of, row_norms
+from hexmend.arrays import differing_rows, index_of, mask, row_norms
 from hexmend.boundary.band import NO_NODES
+from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels import sliding_surface, step_limits
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
@@ -54,6 +55,8 @@ class Motion:
         Free nodes without a linear motion that are projected onto the surface, ascending; those of other ranks follow.
     owned : (n,) bool, optional
         Nodes that this rank moves, where a mesh is divided among several.
+    ranks : Ranks, optional
+        The ranks among which the mesh is divided.
 
     Attributes
     ----------
@@ -82,9 +85,11 @@ class Motion:
         sliding: Sliding | None = None,
         projected: np.ndarray = NO_NODES,
         owned: np.ndarray | None = None,
+        ranks: Ranks = ONE_RANK,
     ):
         n, linear = mesh.n_nodes, mesh.linear_motion
-        self.mesh, self.sliding, self.owned, self.unit = mesh, sliding, owned, mesh.mean_edge_length or 1.0
+        self.mesh, self.sliding, self.owned, self.ranks = mesh, sliding, owned, ranks
+        self.unit = mesh.mean_edge_length or 1.0
         self.free = self.nodes = np.flatnonzero(mesh.free if owned is None else mesh.free & owned).astype(np.int32)
         self.row: np.ndarray | None = None
         if linear is not None and mesh.free[linear.tied].any():
@@ -121,11 +126,13 @@ class Motion:
 
     def on_part(self, part: Mesh, nodes: np.ndarray) -> Motion:
         """Return the motion of a part of the mesh, from its nodes' numbers (p,) in the mesh; surfaces have no parts."""
-        linear = self.mesh.linear_motion
+        linear, number = self.mesh.linear_motion, index_of(nodes, self.mesh.n_nodes)
         if linear is not None:
-            number = index_of(nodes, self.mesh.n_nodes)
             part = part.with_linear_motion(linear.renumbered(number)).with_fixed(part.fixed)
-        return Motion(part)
+        if self.owned is None:
+            return Motion(part)
+        moving = np.where(mask(nodes[part.free], self.mesh.n_nodes), number, -1)
+        return Motion(part, owned=self.owned[nodes], ranks=self.ranks.part(moving))
 
     def turn(self, x: np.ndarray) -> np.ndarray:
         """Blocks of T of the nodes `bent` at positions x (n, 3) of all nodes, (b, 3, 3).
