@@ -92,8 +92,6 @@ class MeshEnergy(TargetScales):
         self.surface: Term | None = None
         self._workspace = Workspace()
         self.reduction = HessianReduction(self.motion, self._workspace)
-        self._evaluated: tuple[tuple, tuple, tuple] | None = None
-        self._differentiated: tuple[tuple, np.ndarray] | None = None
 
     @classmethod
     def on_surface(cls, sliding: SlidingBoundary, norm: ObjectiveNorm = SQUARES) -> MeshEnergy:
@@ -239,63 +237,38 @@ class MeshEnergy(TargetScales):
 
     def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
         """Compute eta(H) plus the barrier at points x (n, 3), (k,) float64, of some hexes (k,) int or of all."""
-        if among is None:
-            eta, barriers = self._terms_of_hexes(x, delta, 1.0)
-            return eta + barriers
-        hexes, omitted, target = self.mesh.hexes.take(among, axis=0), self.omitted[among], self._target_of(among)
+        hexes, omitted, target, barrier = self.mesh.hexes, self.omitted, self.target, self.barrier
+        if among is not None:
+            hexes, omitted, target = hexes.take(among, axis=0), omitted[among], self._target_of(among)
+            barrier = None if barrier is None else barrier.on_part(among)
         values = energies(x, hexes, delta, omitted, 1.0, target)
-        if self.barrier is not None:
-            values += self.barrier.on_part(among).hex_values(x, hexes, omitted, target)
+        if barrier is not None:
+            values += barrier.hex_values(x, hexes, omitted, target)
         return values
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.norm
-        eta, barriers = self._terms_of_hexes(x, delta, offset)
+        eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            out = None if self.limits_moves else eta  # what is not kept can be overwritten
             if p == 2:
-                eta = np.square(eta, out=out)
+                np.square(eta, out=eta)
             elif p != 1:
-                eta = np.power(eta, p, out=out)
-            values = eta[self.counted]
-            own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
+                np.power(eta, p, out=eta)
+            own = float(eta[self.counted].sum())
+            if self.barrier is not None:
+                own += float(self.barriers(x)[self.counted].sum())
         if self.surface is not None:
             own += self.surface.value(self.as_points(x), self.norm)
         return self.ranks.sum(own)
 
-    def _terms_of_hexes(self, x: np.ndarray, delta: float, offset: float) -> tuple[np.ndarray, np.ndarray | float]:
-        """Compute eta(H) and the barrier of every hex, (m,) each.
-
-        Where steps are limited they are kept for the last x, and not to be changed: the last trial of a line search is
-        where the next step begins. It is known by the array x: points are not changed in place between calls.
-        """
-        if not self.limits_moves:
-            return self.hex_energies(x, delta, offset), self.barriers(x)
-        known = self._evaluated  # one read, as another thread may replace it
-        key = x, self.omitted, self.barrier, self.target
-        same = known is not None and all(one is other for one, other in zip(known[0], key, strict=True))
-        if not same or known[1] != (delta, offset):
-            terms = self.hex_energies(x, delta, offset), self.barriers(x)
-            known = self._evaluated = key, (delta, offset), terms
-        return known[2]
-
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient by `nodes` at points x (n, 3), (j, 3): (B.3), (B.21), (C.2)."""
         x = self.as_points(x)
-        gradient = self._gradient_in_space(x, delta)
-        return self.motion.contract(x, gradient.copy() if self.motion.projected.size else gradient)
+        return self.motion.contract(x, self._gradient_in_space(x, delta))
 
     def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
-        """Compute the gradient by all free nodes, as if they were free in space, (k, 3).
-
-        Where nodes slide it is kept for the last x, and not to be changed: a line search needs it twice. It is known by
-        the array x: points are not changed in place between calls.
-        """
-        key = x, delta, self.norm, self.omitted, self.barrier, self.surface, self.target
-        known = self._differentiated  # one read, as another thread may replace it
-        if known is not None and all(one is other for one, other in zip(known[0], key, strict=True)):
-            return known[1]
+        """Compute the gradient by all free nodes, as if they were free in space, (k, 3)."""
         shares = self.corner_buffer
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
@@ -303,8 +276,6 @@ class MeshEnergy(TargetScales):
         gradient = self.sum_at_nodes()
         if self.surface is not None:
             gradient += self.surface.gradient(x, self.norm)[self.motion.free]
-        if self.motion.projected.size:
-            self._differentiated = key, gradient
         return gradient
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -318,7 +289,8 @@ class MeshEnergy(TargetScales):
         """
         if not self.motion.projected.size:
             return self.ranks.sum(dot(step, gradient))
-        forces = self._gradient_in_space(self.as_points(x), delta)
+        x = self.as_points(x)
+        forces = self._gradient_in_space(x, delta)
         return self.ranks.sum(self.motion.slope(x, step, forces, self.node_lengths))
 
     def infeasible_nodes(

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import differing_rows, index_of, mask, row_norms
+from hexmend.arrays import index_of, mask, row_norms
 from hexmend.boundary.band import NO_NODES
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels import sliding_surface, step_limits
@@ -107,7 +107,6 @@ class Motion:
             self.restricted = np.flatnonzero(at >= 0)
             self._restricted_rows = at[self.restricted]
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
-        self._last: tuple[np.ndarray, np.ndarray] | None = None
 
     @property
     def is_free(self) -> bool:
@@ -192,27 +191,13 @@ class Motion:
         there = np.empty(x.shape)
         step_limits.displaced(x, self.free, steps, alpha, there)
         if self.projected.size:
-            there[self.projected] = self._on_surface(there.take(self.projected, axis=0))
+            there[self.projected] = self._project(there.take(self.projected, axis=0))
         return there
 
-    def _on_surface(self, aims: np.ndarray) -> np.ndarray:
-        """Project positions of the nodes `projected`, (s, 3); those that are as last time are known.
-
-        Steps are tried again with some nodes' shares of them halved, and the others unchanged.
-        """
-        known, nodes = self._last, self.projected  # one read, as another thread may replace it
-        if known is None:
-            places = self._project(aims, nodes)
-        else:
-            places, new = known[1].copy(), np.flatnonzero(differing_rows(aims, known[0]))
-            places[new] = self._project(aims.take(new, axis=0), nodes.take(new))
-        self._last = aims, places
-        return places
-
-    def _project(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-        """Project positions (k, 3) of nodes (k,) onto the surface."""
-        assert self.sliding is not None  # else no node slides
-        return self.sliding.project(x * self.unit, nodes) / self.unit
+    def _project(self, x: np.ndarray) -> np.ndarray:
+        """Project positions of the nodes `projected`, (p, 3), onto the surface."""
+        assert self.sliding is not None  # else there are none
+        return self.sliding.project(x * self.unit, self.projected) / self.unit
 
     def slope(self, x: np.ndarray, step: np.ndarray, forces: np.ndarray, lengths: np.ndarray | None) -> float:
         """Compute the slope of an energy along a step after projection; steps of nodes that would ascend are set to 0.
@@ -242,7 +227,7 @@ class Motion:
         places, along, own = x.take(self.projected, axis=0), steps.take(rows, axis=0), forces.take(rows, axis=0)
         sizes = 1.0 if lengths is None else np.minimum(lengths[at], 1.0)
         far = _PROBE_LENGTH * sizes / np.maximum(row_norms(along), np.finfo(float).tiny)[:, None]
-        slopes = np.einsum("ki,ki->k", (self._project(places + far * along, self.projected) - places) / far, own)
+        slopes = np.einsum("ki,ki->k", (self._project(places + far * along) - places) / far, own)
         kept = slopes < 0
         if lengths is not None:
             kept |= slopes <= _KEPT_RISE * np.einsum("ki,ki->k", along, own)
