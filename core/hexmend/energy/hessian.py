@@ -110,8 +110,6 @@ class Hessian(SymmetricOperator):
         -------
         AssembledHessian
         """
-        if reuse is not None:
-            reuse = reuse.unreduced or reuse
         matrix = self.energy.reduction.reduced(self._in_space(dtype, reuse), self.x)
         if self.shift:
             shift = np.ldexp(self.shift, -matrix.exponent)

@@ -30,7 +30,7 @@ class HessianReduction:
 
     def __init__(self, motion: Motion, workspace: Workspace):
         self._motion, self._workspace = motion, workspace
-        self._known_blocks: dict[tuple[BlockSparsity, np.dtype], tuple] = {}
+        self._known_blocks: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
         self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
 
     def reduced(self, full: AssembledHessian, x: np.ndarray) -> AssembledHessian:
@@ -50,42 +50,35 @@ class HessianReduction:
         motion, matrix = self._motion, full
         if motion.bent.size:
             turn = motion.turn(x).astype(full.dtype).reshape(-1, 9)
-            slots, (scaled, factors), (turned, row, column) = self._blocks(full)
-            conjugate_gradients.scale_blocks(scaled, factors, full.off_diagonal)
-            if turned.size:
-                of_slot = np.tile(np.eye(3, dtype=full.dtype).ravel(), (full.sparsity.nodes.size, 1))
-                of_slot[slots] = turn
-                conjugate_gradients.turn_blocks(of_slot, turned, row, column, full.off_diagonal)
+            slots, *blocks = self._blocks(full.sparsity)
+            identity = np.eye(3, dtype=full.dtype).reshape(1, 9)
+            conjugate_gradients.turn_blocks(np.concatenate([identity, turn]), *blocks, full.off_diagonal)
             if motion.row is not None:
                 conjugate_gradients.turn_diagonal(turn, slots, full.diagonal)
         if motion.row is not None:
             matrix = self._merged(full, motion.row)
-            matrix.unreduced = full
         if motion.bent.size:  # a scale between the extreme eigenvalues where they cannot move
             own = index_of(matrix.sparsity.nodes, motion.mesh.n_nodes)[motion.bent[motion.restricted]]
             conjugate_gradients.project_diagonal(turn[motion.restricted], own, matrix.diagonal)
         return matrix
 
-    def _blocks(self, full: AssembledHessian) -> tuple:
-        """Slots of the nodes `bent`, and the blocks above the diagonal that T changes.
+    def _blocks(self, sparsity: BlockSparsity) -> tuple[np.ndarray, ...]:
+        """Find the blocks above the diagonal that T changes.
 
-        Blocks of nodes in planes and lines of the axes are only scaled: their numbers (b,) and factors (b, 9). Then the
-        numbers of the others with the slots of their rows and columns, (t,) each.
+        Returns
+        -------
+        slots : (b,) int32
+            Of the nodes `bent`.
+        at, row, column : (t,) int32
+            Numbers of the blocks, with 1 + the index in `bent` of the node of each row and column; 0: in none.
         """
-        dtype, sparsity, motion = full.dtype, full.sparsity, self._motion
-        if (sparsity, dtype) not in self._known_blocks:
-            count, slots = sparsity.nodes.size, index_of(sparsity.nodes, motion.mesh.n_nodes)[motion.bent]
-            axial, skew = slots[: motion.axial], mask(slots[motion.axial :], count)
-            scales, bent = np.ones((count, 3), dtype), mask(axial, count)
-            scales[axial] = motion.scales
-            row = np.repeat(np.arange(count, dtype=np.int32), np.diff(sparsity.row_start))
-            column = sparsity.columns
-            turned = skew[row] | skew[column]
-            scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned).astype(np.int32)
-            factors = (scales[row[scaled], :, None] * scales[column[scaled], None]).reshape(-1, 9)
-            turned = np.flatnonzero(turned).astype(np.int32)
-            self._known_blocks[sparsity, dtype] = slots, (scaled, factors), (turned, row[turned], column[turned])
-        return self._known_blocks[sparsity, dtype]
+        if sparsity not in self._known_blocks:
+            slots = index_of(sparsity.nodes, self._motion.mesh.n_nodes)[self._motion.bent]
+            number = 1 + index_of(slots, sparsity.nodes.size)
+            row, column = np.repeat(number, np.diff(sparsity.row_start)), number[sparsity.columns]
+            at = np.flatnonzero(row | column).astype(np.int32)
+            self._known_blocks[sparsity] = slots, at, row[at], column[at]
+        return self._known_blocks[sparsity]
 
     @cached_property
     def ordered_nodes(self) -> BlockSparsity:

@@ -68,9 +68,6 @@ class Motion:
         Index in `nodes` of each free node, or of its master; None if no free node is tied.
     bent : (b,) int64
         Nodes where T is not the identity; those of other ranks come last.
-    axial : int
-        Number of nodes in planes and lines of the axes, which come first in `bent`; `scales` (axial, 3) are the
-        diagonals of their blocks.
     projected : (p,) int64
         Nodes of this rank that are projected onto the surface.
     restricted : (r,) int64
@@ -97,8 +94,7 @@ class Motion:
             own = self.root[self.free] == self.free
             self.nodes, self._own, self._tied = self.free[own], np.flatnonzero(own), np.flatnonzero(~own)
             self.row = index_of(self.nodes, n)[self.root[self.free]]
-        nodes, self._turn, self.axial = _linear_blocks(linear, mesh.free)
-        self.scales = np.einsum("bii->bi", self._turn[: self.axial])
+        nodes, self._turn = _linear_blocks(linear, mesh.free)
         self.bent = np.concatenate([nodes, projected])
         here = self.bent if owned is None else self.bent[owned[self.bent]]
         self.projected = here[nodes.size :]  # that this rank moves
@@ -170,10 +166,8 @@ class Motion:
     def _turned(self, vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
         """Multiply vectors of free nodes (k, 3), changed, by the blocks of `bent`; returns them."""
         if self.bent.size:
-            axial, skew = self._rows[: self.axial], self._rows[self.axial :]
-            turned = np.einsum("kij,kj->ki", turn[self.axial : self._rows.size], vectors.take(skew, axis=0))
-            vectors[axial] *= self.scales
-            vectors[skew] = turned
+            turned = np.einsum("kij,kj->ki", turn[: self._rows.size], vectors.take(self._rows, axis=0))
+            vectors[self._rows] = turned
         return vectors
 
     def inadmissible(self, x: np.ndarray, vectors: np.ndarray) -> np.ndarray:
@@ -250,26 +244,21 @@ class Motion:
         return marks
 
 
-def _linear_blocks(motion: LinearMotion | None, free: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+def _linear_blocks(motion: LinearMotion | None, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Find the free nodes, free (n,) bool, that a linear motion restricts or turns.
 
     Returns
     -------
     nodes : (b,) int64
-        Those in planes and lines of the axes come first.
     turn : (b, 3, 3) float64
         Displacement of each, from that of itself or of its master.
-    axial : int
-        Number of nodes whose block is diagonal.
     """
     if motion is None:
-        return NO_NODES, np.empty((0, 3, 3)), 0
+        return NO_NODES, np.empty((0, 3, 3))
     place = index_of(motion.nodes, free.size)[motion.master]
     of_master = np.tile(np.eye(3), (place.size, 1, 1))
     of_master[place >= 0] = motion.projectors[place[place >= 0]]
     nodes = np.concatenate([motion.nodes, motion.tied]).astype(np.int64)
     turn = np.concatenate([motion.projectors, motion.rotations @ of_master])
     used = free[nodes] & (turn != np.eye(3)).any(axis=(1, 2))
-    axial = (turn[:, ~np.eye(3, dtype=bool)] == 0).all(axis=1)
-    order = np.concatenate([np.flatnonzero(used & axial), np.flatnonzero(used & ~axial)])
-    return nodes[order], turn[order], int(np.count_nonzero(used & axial))
+    return nodes[used], turn[used]
