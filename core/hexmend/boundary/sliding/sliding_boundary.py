@@ -171,7 +171,7 @@ class SlidingBoundary(SlidingNodes):
         start, given = mesh.motion_start.copy(), mesh.linear_motion
         start[flat.nodes] = self.points[flat.nodes]
         motion = flat if given is None else given.merge(flat)
-        return mesh.with_points(start).with_linear_motion(motion).with_points(mesh.points).with_fixed(mesh.fixed)
+        return mesh.with_linear_motion(motion, start).with_fixed(mesh.fixed)
 
     @cached_property
     def _flat(self) -> LinearMotion:
