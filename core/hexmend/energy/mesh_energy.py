@@ -304,11 +304,11 @@ class MeshEnergy(TargetScales):
         if self.surface is not None:
             found.append(self.surface.beyond(self.as_points(x), self.as_points(moved)))
         marks = [each for each in found if each is not None]
-        return self.motion.with_masters(np.logical_or.reduce(marks)) if marks else None
+        return self.motion.with_tied(np.logical_or.reduce(marks)) if marks else None
 
-    def with_masters(self, marks: np.ndarray) -> np.ndarray:
-        """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
-        return self.ranks.complete(self.motion.with_masters(marks))
+    def with_tied(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them."""
+        return self.ranks.complete(self.motion.with_tied(marks))
 
     @property
     def corner_buffer(self) -> np.ndarray:

@@ -266,7 +266,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes.take(np.flatnonzero(worsened), axis=0)] = True
-        halved = energy.with_masters(halved)
+        halved = energy.with_tied(halved)
         if not energy.ranks.any(halved):
             break
         share[halved] *= 0.5

@@ -235,13 +235,9 @@ class Motion:
         """
         return None if self.sliding is None else self.sliding.rejected(x * self.unit, there * self.unit, changed)
 
-    def with_masters(self, marks: np.ndarray) -> np.ndarray:
-        """Return marks of nodes, (n,) bool, to which the nodes are added that others of them follow."""
-        if self.row is None:
-            return marks
-        marks = marks.copy()
-        marks[self.root[marks]] = True
-        return marks
+    def with_tied(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them."""
+        return marks if self.row is None else mask(self.root[marks], marks.size)[self.root]
 
 
 def _linear_blocks(motion: LinearMotion | None, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

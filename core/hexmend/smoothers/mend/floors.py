@@ -266,7 +266,7 @@ class Floors:
             near = energy.ranks.complete(mask(mesh.hexes[near], mesh.n_nodes))[mesh.hexes].any(axis=1)
         if not energy.motion.has_parts or 2 * energy.count(near) > energy.n_hexes:
             return energy, self._hexes, None
-        region = Region(energy, np.flatnonzero(near), self.values.x)
+        region = Region(energy, mask(mesh.hexes[near], mesh.n_nodes), self.values.x)
         return region.energy, self._movable(region.energy), region
 
     def _take(self, region: Region | None, hexes: MovableHexes, x: np.ndarray) -> None:
