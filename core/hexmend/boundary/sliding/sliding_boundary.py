@@ -119,8 +119,6 @@ class SlidingBoundary(SlidingNodes):
     @cached_property
     def curved_nodes(self) -> np.ndarray:
         """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
-        if self._given is not None:  # a surface of its own
-            return self.nodes
         return self.nodes[~self._flat.marks(self.mesh.n_nodes)[self.nodes]]
 
     @property
@@ -163,9 +161,9 @@ class SlidingBoundary(SlidingNodes):
     def linear_mesh_without(self, leaving: np.ndarray) -> Mesh:
         """Return `linear_mesh` with some nodes (n,) bool free: they move in all directions, off the surface too."""
         mesh = self.mesh.with_fixed(self.mesh.fixed & ~leaving)
-        if self._given is not None or not self._flat:
+        if not self._flat:
             return mesh
-        flat = flat_motion(self.points, self.boundary, self.nodes[~leaving[self.nodes]], self.mesh.mean_edge_length)
+        flat = self._flat.renumbered(np.where(leaving, -1, np.arange(leaving.size)))
         if not flat:
             return mesh
         start, given = mesh.motion_start.copy(), mesh.linear_motion
@@ -175,6 +173,9 @@ class SlidingBoundary(SlidingNodes):
 
     @cached_property
     def _flat(self) -> LinearMotion:
+        """Motion of the nodes on flat patches and straight curves of the boundary; none on a surface of its own."""
+        if self._given is not None:
+            return LinearMotion()
         return flat_motion(self.points, self.boundary, self.nodes, self.mesh.mean_edge_length)
 
     @cached_property
