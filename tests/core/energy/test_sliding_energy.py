@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.arrays import mask
 from hexmend.boundary import NodeClass, SlidingBoundary
-from hexmend.energy import ObjectiveNorm
+from hexmend.energy import MeshEnergy, Motion, ObjectiveNorm
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.energy.projected import projected_energy
@@ -105,3 +106,17 @@ def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_s
             assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
             np.testing.assert_array_equal(of.with_barriers(x, delta), each)
     assert len(set(values)) == len(values) // 2
+
+
+def test_a_rank_whose_neighbours_alone_own_sliding_nodes_moves_its_own_in_space():
+    sliding = SlidingBoundary(cylinder(16, 3))
+    mesh, slides = sliding.mesh, mask(sliding.nodes, sliding.mesh.n_nodes)
+    energy = MeshEnergy(mesh, motion=Motion(mesh, sliding, sliding.nodes, owned=~slides))
+    whole, x = MeshEnergy(mesh), energy.to_edge_units(mesh.points)
+    gradient, own = energy.gradient(x, 0.1), ~slides[whole.nodes]
+    np.testing.assert_array_equal(gradient, whole.gradient(x, 0.1)[own])
+    np.testing.assert_array_equal(energy.moved(x, gradient)[slides], x[slides])
+    assert energy.directional_derivative(x, 0.1, -gradient, gradient) == pytest.approx(-(gradient**2).sum())
+    diagonal = energy.hessian(x, 0.1).assembled(np.float64).diagonal_blocks
+    of_all = whole.hessian(x, 0.1).assembled(np.float64).diagonal_blocks
+    np.testing.assert_allclose(diagonal, of_all[own], rtol=1e-12, atol=1e-12 * np.abs(of_all).max())

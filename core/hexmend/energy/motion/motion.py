@@ -98,7 +98,7 @@ class Motion:
         self.bent = np.concatenate([nodes, projected])
         here = self.bent if owned is None else self.bent[owned[self.bent]]
         self.projected = here[nodes.size :]  # that this rank moves
-        if here.size:
+        if self.bent.size:
             self._rows, at = index_of(self.free, n)[here], index_of(self.nodes, n)[here]
             self.restricted = np.flatnonzero(at >= 0)
             self._restricted_rows = at[self.restricted]
