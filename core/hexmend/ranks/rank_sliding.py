@@ -23,8 +23,6 @@ class RankSliding:
         Numbers of these nodes in the whole mesh, ascending.
     part : RankPart
         Part of the mesh with the boundary fixed.
-    is_curved : bool
-        Nodes slide on curved patches or curves too, which have creases.
 
     Attributes
     ----------
@@ -36,8 +34,8 @@ class RankSliding:
         Of the part; nodes on flat patches and straight curves are projected as others are.
     """
 
-    def __init__(self, whole: SlidingNodes, numbers: np.ndarray, part: RankPart, is_curved: bool):
-        self.whole, self.is_curved, mesh, ranks = whole, is_curved, part.mesh, part.ranks
+    def __init__(self, whole: SlidingNodes, numbers: np.ndarray, part: RankPart):
+        self.whole, mesh, ranks = whole, part.mesh, part.ranks
         place = np.minimum(np.searchsorted(part.nodes, numbers), part.nodes.size - 1)
         self._in_part = np.where(part.nodes[place] == numbers, place, -1)  # of each node of the boundary
         here = np.flatnonzero(self._in_part >= 0)
@@ -94,6 +92,5 @@ class RankSliding:
 
 def distribute_sliding(part: RankPart, sliding: SlidingBoundary | None) -> RankSliding:
     """Give all ranks the sliding nodes of the whole mesh that rank 0 has; the others give None."""
-    given = None if sliding is None else (*sliding.on_boundary(), sliding.is_curved)
-    whole, numbers, is_curved = part.ranks.comm.bcast(given)
-    return RankSliding(whole, numbers, part, is_curved)
+    whole, numbers = part.ranks.comm.bcast(None if sliding is None else sliding.on_boundary())
+    return RankSliding(whole, numbers, part)

@@ -121,11 +121,6 @@ class SlidingBoundary(SlidingNodes):
         """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
         return self.nodes[~self._flat.marks(self.mesh.n_nodes)[self.nodes]]
 
-    @property
-    def is_curved(self) -> bool:
-        """True if there are `curved_nodes`."""
-        return self.curved_nodes.size > 0
-
     def rejected(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray | None:
         """See `SlidingNodes.rejected`; nodes that leave their flat patch or straight curve are marked too.
 

@@ -23,10 +23,6 @@ _KEPT_RISE = 1.01
 class Sliding(Protocol):
     """Nodes of a boundary that slide on a surface, such as `hexmend.boundary.SlidingBoundary`; in the mesh's unit."""
 
-    @property
-    def is_curved(self) -> bool:
-        """True if nodes slide on curved patches or curves, whose creases slow down Newton's method."""
-
     def project(self, x: np.ndarray, nodes: np.ndarray) -> np.ndarray:
         """Project positions (k, 3) of some sliding nodes (k,)."""
 
@@ -113,11 +109,6 @@ class Motion:
     def has_parts(self) -> bool:
         """True if nodes move independently of each other: that of a part of the mesh has the same form."""
         return self.row is None and self.sliding is None
-
-    @property
-    def faceted(self) -> bool:
-        """True if nodes slide on a surface whose creases slow down Newton's method."""
-        return self.sliding is not None and self.sliding.is_curved
 
     def on_part(self, part: Mesh, nodes: np.ndarray) -> Motion:
         """Return the motion of a part of the mesh, from its nodes' numbers (p,) in the mesh; surfaces have no parts."""

@@ -47,7 +47,7 @@ class ShapeStages:
         mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
-        if left and energy.norm.p < SQUARES.p and not energy.motion.faceted:
+        if left and energy.norm.p < SQUARES.p:
             # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
             again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), locked)
             untangled = again if again.left(locked, energy) < left else untangled
