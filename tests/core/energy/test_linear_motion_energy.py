@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import cylinder
@@ -107,3 +108,13 @@ def test_a_part_none_of_whose_nodes_moves_in_a_plane_has_the_energy_of_its_hexes
     step = np.random.default_rng(1).uniform(-0.1, 0.1, (region.energy.nodes.size, 3))
     merged = region.merged(x, region.energy.moved(region.inside(x), step))
     assert set(np.flatnonzero((merged != x).any(axis=1))) <= set(mesh.hexes[region.hexes].ravel())
+
+
+def test_the_gradient_without_size_is_that_of_the_shape_alone():
+    """The size went on counting in gradients of meshes with a linear motion."""
+    lengths = np.random.default_rng(2).uniform(0.5, 1.5, (BLOCK.n_hexes, 3))
+    mesh = BLOCK.with_linear_motion(PLANES).with_element_target(Target(lengths, 1.0))
+    energy = MeshEnergy(mesh).without_size()
+    x, step, t = energy.to_edge_units(mesh.points), np.random.default_rng(3).normal(size=(energy.nodes.size, 3)), 1e-6
+    rise = energy.value(energy.moved(x, step, t), 0.05) - energy.value(energy.moved(x, step, -t), 0.05)
+    assert rise / (2 * t) == pytest.approx((energy.gradient(x, 0.05) * step).sum(), rel=1e-5)
