@@ -138,10 +138,13 @@ class Motion:
 
     def expand(self, x: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """T at positions x (n, 3) times steps of the independent nodes, (j, 3): those of all free nodes, (k, 3)."""
+        return self._expanded(steps, self.turn(x))
+
+    def _expanded(self, steps: np.ndarray, turn: np.ndarray) -> np.ndarray:
+        """Give steps of the independent nodes (j, 3) to all free nodes, (k, 3), by blocks of the first of `bent`."""
         if self.is_free:
             return steps
-        steps = steps.copy() if self.row is None else steps.take(self.row, axis=0)
-        return self._turned(steps, self.turn(x))
+        return self._turned(steps.copy() if self.row is None else steps.take(self.row, axis=0), turn)
 
     def contract(self, x: np.ndarray, forces: np.ndarray) -> np.ndarray:
         """Reduce vectors of the free nodes, (k, 3), overwritten, to the independent ones, (j, 3), by T^T at x."""
@@ -155,10 +158,10 @@ class Motion:
         return sums
 
     def _turned(self, vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
-        """Multiply vectors of free nodes (k, 3), changed, by the blocks of `bent`; returns them."""
+        """Multiply vectors of free nodes (k, 3), changed, by the blocks of the first of `bent`; returns them."""
         if self.bent.size:
-            turned = np.einsum("kij,kj->ki", turn[: self._rows.size], vectors.take(self._rows, axis=0))
-            vectors[self._rows] = turned
+            rows = self._rows[: len(turn)]
+            vectors[rows] = np.einsum("kij,kj->ki", turn[: rows.size], vectors.take(rows, axis=0))
         return vectors
 
     def inadmissible(self, x: np.ndarray, vectors: np.ndarray) -> np.ndarray:
@@ -171,8 +174,12 @@ class Motion:
         return outside
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
-        """Return x (n, 3) with the free nodes moved by alpha times a step of the independent ones, (j, 3)."""
-        steps = self.expand(x, points_like(step, (self.nodes.size, 3), "steps"))
+        """Return x (n, 3) with the free nodes moved by alpha times a step of the independent ones, (j, 3).
+
+        On a surface steps are projected as they are: those of a solver in single precision are tangential but for its
+        rounding, and what limits them there is not continuous.
+        """
+        steps = self._expanded(points_like(step, (self.nodes.size, 3), "steps"), self._turn)
         there = np.empty(x.shape)
         step_limits.displaced(x, self.free, steps, alpha, there)
         if self.projected.size:
@@ -208,7 +215,7 @@ class Motion:
         """
         rows = self._rows[len(self._turn) :]
         at = rows if self.row is None else self.row[rows]
-        steps = self.expand(x, step)
+        steps = self._expanded(step, self._turn)
         places, along, own = x.take(self.projected, axis=0), steps.take(rows, axis=0), forces.take(rows, axis=0)
         sizes = 1.0 if lengths is None else np.minimum(lengths[at], 1.0)
         far = _PROBE_LENGTH * sizes / np.maximum(row_norms(along), np.finfo(float).tiny)[:, None]
