@@ -127,7 +127,7 @@ def _preconditioners() -> dict[str, Any]:
         x = energy.to_edge_units(mesh.points)
         right = -energy.gradient(x).ravel()
         for parts in (None, 1):
-            energy.ordered_nodes = BlockSparsity(mesh, parts)
+            energy.reduction.ordered_nodes = BlockSparsity(mesh, parts)
             made = energy.sparsity.bounds.size // 2
             name = "Gauss-Seidel, whole" if made == 1 else f"Gauss-Seidel, {made} parts"
             matrix = energy.hessian(x).assembled()

@@ -96,10 +96,7 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     )
     own = mesh.without_motion_of_rules()  # the rules name nodes as they were, and are gone
     motion = own.linear_motion
-    if motion is None:
-        return rebuilt
-    start = rebuilt.with_points(own.motion_start[first])
-    return start.with_linear_motion(motion.renumbered(target)).with_points(rebuilt.points)
+    return rebuilt if motion is None else rebuilt.with_linear_motion(motion.renumbered(target), own.motion_start[first])
 
 
 def has_repeated_node(hexes: np.ndarray) -> np.ndarray:

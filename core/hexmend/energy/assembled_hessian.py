@@ -59,8 +59,6 @@ class AssembledHessian(SymmetricOperator):
         super().__init__(3 * sparsity.order.size)
         self.sparsity, self.off_diagonal, self.diagonal, self.exponent = sparsity, off_diagonal, diagonal, exponent
         self.order = sparsity.order
-        #: Matrix of all free nodes from which this one of fewer was made; see `hexmend.energy.reduction`.
-        self.unreduced: AssembledHessian | None = None
 
     def reset(self) -> AssembledHessian:
         """Zero the storage for reuse; the old matrix becomes invalid."""

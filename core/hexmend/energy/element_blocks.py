@@ -9,7 +9,7 @@ from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.sparsity import BlockSparsity
 
 #: Places of xx xy xz yy yz zz in a matrix of 3 rows.
-_UPPER = [0, 1, 2, 4, 5, 8]
+UPPER = [0, 1, 2, 4, 5, 8]
 
 
 class ElementBlocks:
@@ -27,7 +27,7 @@ class ElementBlocks:
     def add(self, pairs: np.ndarray, matrix: AssembledHessian) -> None:
         """Add second derivatives by pairs of nodes of each element, (f, w, w, 3, 3), to a matrix."""
         own, corner, slot, element, row, column, block = self._of(matrix.sparsity)
-        diagonal = pairs[own, corner, corner].reshape(-1, 9)[:, _UPPER]
+        diagonal = pairs[own, corner, corner].reshape(-1, 9)[:, UPPER]
         np.add.at(matrix.diagonal, slot, diagonal.astype(matrix.diagonal.dtype))
         above = pairs[element, row, column].reshape(-1, 9)
         np.add.at(matrix.off_diagonal, block, above.astype(matrix.dtype))

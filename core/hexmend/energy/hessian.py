@@ -14,6 +14,7 @@ from hexmend.kernels import objective as kernels
 if TYPE_CHECKING:
     from hexmend.energy.barriers.floor_barrier import FloorBarrier
     from hexmend.energy.barriers.height_barrier import HeightBarrier
+    from hexmend.energy.motion import HessianReduction, Motion
     from hexmend.energy.norm import ObjectiveNorm
     from hexmend.energy.ranks import Ranks
     from hexmend.energy.sparsity import BlockSparsity
@@ -32,7 +33,8 @@ class EnergyOfHexes(Protocol):
     mesh: Mesh
     norm: ObjectiveNorm
     omitted: np.ndarray
-    nodes: np.ndarray
+    motion: Motion
+    reduction: HessianReduction
     slots: np.ndarray
     target: TargetMatrices | None
     barrier: FloorBarrier | HeightBarrier | None
@@ -50,13 +52,14 @@ class EnergyOfHexes(Protocol):
 
 
 class Hessian(SymmetricOperator):
-    """Hessian of a `MeshEnergy` at given node positions, (3 k, 3 k), plus `shift` times the identity.
+    """Hessian of a `MeshEnergy` at given node positions, (3 j, 3 j), plus `shift` times the identity.
 
-    Unknowns are x, y, z of the first free node, then of the second, and so on.
+    Unknowns are x, y, z of the first node that moves independently, then of the second, and so on. In directions in
+    which these cannot move it is a multiple of the identity.
     """
 
     def __init__(self, energy: EnergyOfHexes, x: np.ndarray, delta: float, shift: float = 0.0):
-        super().__init__(3 * energy.nodes.size)
+        super().__init__(3 * energy.motion.nodes.size)
         self.energy, self.x, self.delta, self.shift = energy, energy.as_points(x), float(delta), float(shift)
 
     def shifted(self, shift: float) -> Hessian:
@@ -64,9 +67,19 @@ class Hessian(SymmetricOperator):
         return type(self)(self.energy, self.x, self.delta, self.shift + shift)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
-        energy, v = self.energy, v.reshape(-1, 3)
+        motion, v = self.energy.motion, v.reshape(-1, 3)
+        product = motion.contract(self.x, self._product_in_space(motion.expand(self.x, v)))
+        if not motion.is_free:
+            product += motion.inadmissible(self.x, v)
+        if self.shift:
+            product += self.shift * v
+        return product.ravel()
+
+    def _product_in_space(self, v: np.ndarray) -> np.ndarray:
+        """The product of the Hessian of all free nodes with vectors v (k, 3), (k, 3)."""
+        energy = self.energy
         if energy.barrier is not None or energy.surface is not None:
-            return self.assembled(np.float64) @ v.ravel()
+            return (self._in_space(np.float64) @ v.ravel()).reshape(-1, 3)
         kernels.hessian_product(
             self.x,
             energy.mesh.hexes,
@@ -78,10 +91,7 @@ class Hessian(SymmetricOperator):
             energy.corner_buffer,
             energy.target,
         )
-        product = energy.sum_at_nodes()
-        if self.shift:
-            product += self.shift * v
-        return product.ravel()
+        return energy.sum_at_nodes()
 
     def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
         """Assemble the matrix, for many products or for a linear system.
@@ -100,6 +110,14 @@ class Hessian(SymmetricOperator):
         -------
         AssembledHessian
         """
+        matrix = self.energy.reduction.reduced(self._in_space(dtype, reuse), self.x)
+        if self.shift:
+            shift = np.ldexp(self.shift, -matrix.exponent)
+            matrix.diagonal += shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
+        return matrix
+
+    def _in_space(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
+        """Assemble the matrix of all free nodes, without the shift; see `assembled`."""
         energy = self.energy
         sparsity, packed = energy.sparsity, dtype is None and self._is_packed
         dtype = dtype or energy.precision
@@ -109,7 +127,7 @@ class Hessian(SymmetricOperator):
         if packed and energy.ranks.any(stretched > _MOST_STRETCHED * sparsity.order.size):
             del matrix
             sparsity.packs = False
-            return self.assembled()
+            return self._in_space()
         if dtype == np.float32 and matrix.underflows():
             wide = AssembledHessian.zero(sparsity, np.float64)
             self._assemble(wide)
@@ -119,7 +137,7 @@ class Hessian(SymmetricOperator):
     @property
     def _is_packed(self) -> bool:
         energy = self.energy
-        whole = energy.barrier is None and energy.surface is None  # nothing else is added to the blocks
+        whole = energy.barrier is None and energy.surface is None and energy.motion.is_free  # blocks stay as they are
         return whole and energy.precision is np.float32 and energy.sparsity.packs
 
     def _assemble(self, matrix: AssembledHessian) -> int:
@@ -137,6 +155,4 @@ class Hessian(SymmetricOperator):
             energy.barrier.assemble(self.x, energy.omitted, matrix, energy.target)
         if energy.surface is not None:
             energy.surface.assemble(self.x, energy.norm, matrix)
-        if self.shift:
-            matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)
         return stretched

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned, dot, index_of
+from hexmend.boundary import SlidingBoundary
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
+from hexmend.energy.motion import HessianReduction, Motion
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import TargetScales
 from hexmend.energy.workspace import Workspace
 from hexmend.kernels import objective as kernels
-from hexmend.kernels import step_limits
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -41,13 +41,20 @@ class MeshEnergy(TargetScales):
         p and offset.
     omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
+    motion : Motion, optional
+        Of the nodes; by default they move as the linear motion of the mesh says, or freely. Values and slopes are sums
+        over the ranks among which the mesh is divided, gradients those of the nodes that this rank moves.
 
     Attributes
     ----------
     unit : float
         Mean edge length of the mesh.
     nodes : (k,) int32
-        Free nodes; row i of a gradient belongs to node nodes[i].
+        Nodes that move independently of each other; row i of a gradient belongs to nodes[i] and all tied to it.
+    n_hexes : int
+        Number of hexes, of all ranks.
+    counted : (m,) bool or slice
+        Hexes that this rank counts.
     target : TargetMatrices or None
         Of the mesh, in the energy's unit of length.
     barrier : FloorBarrier or None
@@ -65,72 +72,72 @@ class MeshEnergy(TargetScales):
     (0.0, (8, 3))
     """
 
-    #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
-    faceted = False
-    #: True if `infeasible_nodes` may find some.
-    limits_moves = False
-    #: The ranks among which the hexes are divided; values and slopes are sums over all of them.
-    ranks: Ranks = ONE_RANK
-    #: True if nodes move independently of each other, so that the energy of a part of the mesh has the same form.
-    has_parts = True
-    #: The hexes that this rank counts, as an index of (m,).
-    counted: slice | np.ndarray = slice(None)
-
-    def __init__(self, mesh: Mesh, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
+    def __init__(
+        self,
+        mesh: Mesh,
+        norm: ObjectiveNorm = SQUARES,
+        omitted: np.ndarray | None = None,
+        motion: Motion | None = None,
+    ):
         self.mesh = mesh
         self.norm = norm
         self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
-        self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        self.motion = motion or Motion(mesh)
+        self.nodes, self.ranks, owned = self.motion.nodes, self.motion.ranks, self.motion.owned
+        self.counted = slice(None) if owned is None else owned[mesh.hexes[:, 0]]
+        self.n_hexes = mesh.n_hexes if owned is None else self.ranks.sum(int(self.counted.sum()))
         self._set_target(mesh)
         self.barrier: FloorBarrier | HeightBarrier | None = None
         self.surface: Term | None = None
         self._workspace = Workspace()
-        self._ordered: list[BlockSparsity] = []  # none before first use; shared by copies
-        self._evaluated: tuple[tuple, tuple, tuple] | None = None
+        self.reduction = HessianReduction(self.motion, self._workspace)
+
+    @classmethod
+    def on_surface(cls, sliding: SlidingBoundary, norm: ObjectiveNorm = SQUARES) -> MeshEnergy:
+        """Make the energy of a mesh whose boundary slides.
+
+        Nodes that slide on flat patches and straight curves get a linear motion: they stay on them exactly, and
+        Newton's method converges as it does inside.
+
+        Parameters
+        ----------
+        sliding : SlidingBoundary
+        norm : ObjectiveNorm
+
+        Returns
+        -------
+        MeshEnergy
+            Of `SlidingBoundary.linear_mesh`.
+        """
+        mesh = sliding.linear_mesh
+        return cls(mesh, norm, motion=Motion(mesh, sliding, sliding.curved_nodes))
+
+    @property
+    def limits_moves(self) -> bool:
+        """True if `infeasible_nodes` may find some."""
+        return self.motion.sliding is not None or (self.surface is not None and self.surface.limits_moves)
 
     @cached_property
     def slots(self) -> np.ndarray:
         """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
-        return index_of(self.nodes, self.mesh.n_nodes)[self.mesh.hexes]
+        return index_of(self.motion.free, self.mesh.n_nodes)[self.mesh.hexes]
 
     @property
     def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex, or a corner tetrahedron for p = 1."""
         couples_hexes = self.norm.p != 1 or self.barrier is not None
-        return self.ordered_nodes if couples_hexes else self.ordered_nodes.of_tetrahedra
-
-    @property
-    def ordered_nodes(self) -> BlockSparsity:
-        """The order of free nodes in Hessians, with the pattern of all pairs that share a hex."""
-        if not self._ordered:
-            self._ordered.append(self._order_nodes())
-        return self._ordered[0]
-
-    @ordered_nodes.setter
-    def ordered_nodes(self, nodes: BlockSparsity) -> None:
-        self._ordered[:] = [nodes]
-
-    def _order_nodes(self) -> BlockSparsity:
-        return BlockSparsity(self.mesh, workspace=self._workspace)
+        ordered = self.reduction.ordered_nodes
+        return ordered if couples_hexes else ordered.of_tetrahedra
 
     @property
     def cube_value(self) -> float:
         """Value of the energy if all hexes are cubes, or as the target wants them, and delta is 0."""
         return self.norm.cube_value * self.n_hexes
 
-    @property
-    def n_hexes(self) -> int:
-        """Number of hexes, of all ranks."""
-        return self.mesh.n_hexes
-
     def count(self, marks: np.ndarray) -> int:
         """Count the marked hexes of all ranks; marks (m,), marked where they are not 0."""
         return self.ranks.sum(int(np.count_nonzero(marks[self.counted])))
-
-    def smallest(self, values: np.ndarray, number: int, most: float) -> float:
-        """Return a value (m,) of the hexes of all ranks, the first being number 0 in ascending order; or `most`."""
-        return min(float(np.partition(values, number)[number]), most)
 
     def mean(self, values: np.ndarray) -> float:
         """Return the mean of a value (m,) of the hexes of all ranks."""
@@ -148,16 +155,17 @@ class MeshEnergy(TargetScales):
         nodes : (j,) int
             Numbers of its nodes in this mesh.
         x : (n, 3) float64, optional
-            Positions of all nodes, in mean edge lengths; where nodes slide, those outside the part stay there.
+            Positions of all nodes, in mean edge lengths; a term of the boundary has those outside the part there.
 
         Returns
         -------
         MeshEnergy
             Of positions in mean edge lengths of this mesh, with its norm, omitted corners and target.
         """
-        energy = MeshEnergy(part, self.norm, self.omitted[hexes])
+        motion = self.motion.on_part(part, nodes)
+        energy = MeshEnergy(motion.mesh, self.norm, self.omitted[hexes], motion)
         self._give_to_part(energy, hexes)
-        return energy if self.surface is None else energy.with_surface(self.surface.on_part(nodes, part.free, x))
+        return energy if self.surface is None else energy.with_surface(self.surface.on_part(nodes, motion.mesh.free, x))
 
     def _give_to_part(self, energy: MeshEnergy, hexes: np.ndarray) -> None:
         """Give the unit, barrier and target of some hexes (k,) to the energy of a part."""
@@ -198,7 +206,6 @@ class MeshEnergy(TargetScales):
         """Return a copy with a term of the boundary in place of its own; see `with_objective`."""
         other = copy.copy(self)
         other.surface = surface
-        other.limits_moves = surface is not None and (self.limits_moves or surface.limits_moves)
         return other
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
@@ -206,16 +213,17 @@ class MeshEnergy(TargetScales):
         return self.as_points(points) / self.unit
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
-        """Points in the mesh's own unit of length, (n, 3), immutable; fixed nodes to the last bit where they were."""
+        """Points in the mesh's own unit of length, (n, 3), immutable.
+
+        Fixed nodes are to the last bit where they were, and linear constraints hold to the last bit.
+        """
         points = self.mesh.points.copy()
         np.multiply(self.as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
-        return as_immutable_owned(points)
+        return as_immutable_owned(self.mesh.constrained(points))
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
-        """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""
-        x, moved = self.as_points(x), np.empty(x.shape)
-        step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, moved)
-        return moved
+        """Return x (n, 3) with the free nodes moved by alpha times a step of `nodes`, (j, 3)."""
+        return self.ranks.complete(self.motion.moved(self.as_points(x), step, alpha))
 
     def hex_energies(self, x: np.ndarray, delta: float = 0.0, offset: float = 1.0) -> np.ndarray:
         """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
@@ -229,65 +237,61 @@ class MeshEnergy(TargetScales):
 
     def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
         """Compute eta(H) plus the barrier at points x (n, 3), (k,) float64, of some hexes (k,) int or of all."""
-        if among is None:
-            eta, barriers = self._terms_of_hexes(x, delta, 1.0)
-            return eta + barriers
-        hexes, omitted, target = self.mesh.hexes.take(among, axis=0), self.omitted[among], self._target_of(among)
+        hexes, omitted, target, barrier = self.mesh.hexes, self.omitted, self.target, self.barrier
+        if among is not None:
+            hexes, omitted, target = hexes.take(among, axis=0), omitted[among], self._target_of(among)
+            barrier = None if barrier is None else barrier.on_part(among)
         values = energies(x, hexes, delta, omitted, 1.0, target)
-        if self.barrier is not None:
-            values += self.barrier.on_part(among).hex_values(x, hexes, omitted, target)
+        if barrier is not None:
+            values += barrier.hex_values(x, hexes, omitted, target)
         return values
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.norm
-        eta, barriers = self._terms_of_hexes(x, delta, offset)
+        eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
-            out = None if self.limits_moves else eta  # what is not kept can be overwritten
             if p == 2:
-                eta = np.square(eta, out=out)
+                np.square(eta, out=eta)
             elif p != 1:
-                eta = np.power(eta, p, out=out)
-            values = eta[self.counted]
-            own = float(values.sum() + (0.0 if np.isscalar(barriers) else barriers[self.counted].sum()))
+                np.power(eta, p, out=eta)
+            own = float(eta[self.counted].sum())
+            if self.barrier is not None:
+                own += float(self.barriers(x)[self.counted].sum())
         if self.surface is not None:
             own += self.surface.value(self.as_points(x), self.norm)
         return self.ranks.sum(own)
 
-    def _terms_of_hexes(self, x: np.ndarray, delta: float, offset: float) -> tuple[np.ndarray, np.ndarray | float]:
-        """Compute eta(H) and the barrier of every hex, (m,) each.
-
-        Where steps are limited they are kept for the last x, and not to be changed: the last trial of a line search is
-        where the next step begins. It is known by the array x: points are not changed in place between calls.
-        """
-        if not self.limits_moves:
-            return self.hex_energies(x, delta, offset), self.barriers(x)
-        known = self._evaluated  # one read, as another thread may replace it
-        key = x, self.omitted, self.barrier, self.target
-        same = known is not None and all(one is other for one, other in zip(known[0], key, strict=True))
-        if not same or known[1] != (delta, offset):
-            terms = self.hex_energies(x, delta, offset), self.barriers(x)
-            known = self._evaluated = key, (delta, offset), terms
-        return known[2]
-
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
-        """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
-        x, shares = self.as_points(x), self.corner_buffer
+        """Compute the gradient by `nodes` at points x (n, 3), (j, 3): (B.3), (B.21), (C.2)."""
+        x = self.as_points(x)
+        return self.motion.contract(x, self._gradient_in_space(x, delta))
+
+    def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
+        """Compute the gradient by all free nodes, as if they were free in space, (k, 3)."""
+        shares = self.corner_buffer
         kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
             self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
         gradient = self.sum_at_nodes()
         if self.surface is not None:
-            gradient += self.surface.gradient(x, self.norm)[self.nodes]
+            gradient += self.surface.gradient(x, self.norm)[self.motion.free]
         return gradient
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
-        """Return the Hessian with respect to the free nodes at points x (n, 3)."""
+        """Return the Hessian with respect to `nodes` at points x (n, 3)."""
         return Hessian(self, x, delta)
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
-        """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
-        return self.ranks.sum(dot(step, gradient))
+        """Compute the slope of `value` at x along a step (j, 3) of `nodes` from the gradient (j, 3) there.
+
+        Steps of nodes that would ascend on a surface are set to 0.
+        """
+        if not self.motion.projected.size:
+            return self.ranks.sum(dot(step, gradient))
+        x = self.as_points(x)
+        forces = self._gradient_in_space(x, delta)
+        return self.ranks.sum(self.motion.slope(x, step, forces, self.node_lengths))
 
     def infeasible_nodes(
         self, x: np.ndarray, moved: np.ndarray, changed: np.ndarray | None = None
@@ -296,11 +300,15 @@ class MeshEnergy(TargetScales):
 
         With `changed`, (n,) bool, other nodes are known to be where they may.
         """
-        return None if self.surface is None else self.surface.beyond(self.as_points(x), self.as_points(moved))
+        found = [self.motion.infeasible(x, moved, changed)]
+        if self.surface is not None:
+            found.append(self.surface.beyond(self.as_points(x), self.as_points(moved)))
+        marks = [each for each in found if each is not None]
+        return self.motion.with_tied(np.logical_or.reduce(marks)) if marks else None
 
-    def with_masters(self, marks: np.ndarray) -> np.ndarray:
-        """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
-        return self.ranks.complete(marks)
+    def with_tied(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them."""
+        return self.ranks.complete(self.motion.with_tied(marks))
 
     @property
     def corner_buffer(self) -> np.ndarray:
@@ -318,6 +326,6 @@ class MeshEnergy(TargetScales):
     def sum_at_nodes(self) -> np.ndarray:
         """Sum the contributions of the hexes at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
-        rows = np.empty((self.nodes.size, 3))
-        kernels.gather(self.corner_buffer.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
+        rows = np.empty((self.motion.free.size, 3))
+        kernels.gather(self.corner_buffer.reshape(-1, 3), corners.start, corners.items, self.motion.free, rows)
         return rows

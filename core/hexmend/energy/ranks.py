@@ -53,5 +53,9 @@ class Ranks:
         """Return a function like `complete` of arrays in which node i has row positions[i], (n,) int; -1: none."""
         return self.complete
 
+    def part(self, positions: np.ndarray) -> Ranks:
+        """Return the ranks for a part of the mesh in which node i has the number positions[i], (n,) int; -1: none."""
+        return self
+
 
 ONE_RANK = Ranks()

@@ -10,6 +10,7 @@ from typing import Self
 import numpy as np
 
 from hexmend.arrays import row_norms
+from hexmend.energy.ranks import Ranks
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
@@ -116,6 +117,8 @@ class TargetScales:
         Unit of length of the energy, in that of the mesh.
     nodes : (k,) int32
         Free nodes.
+    ranks : Ranks
+        Among which the mesh is divided.
     target : TargetMatrices or None
         Of the mesh, in the energy's unit of length.
     """
@@ -123,6 +126,7 @@ class TargetScales:
     mesh: Mesh
     unit: float
     nodes: np.ndarray
+    ranks: Ranks
     target: TargetMatrices | None
     _lengths: np.ndarray | None
     _weight: float
@@ -170,4 +174,4 @@ class TargetScales:
         if self._lengths is None:
             return np.float32
         aspect = (self._lengths.max(axis=1) / self._lengths.min(axis=1)).max(initial=1.0)
-        return np.float64 if aspect > _MAX_SINGLE_ASPECT else np.float32
+        return np.float64 if self.ranks.any(aspect > _MAX_SINGLE_ASPECT) else np.float32

@@ -127,24 +127,14 @@ def from_slots(of_slots: Annotated[NDArray[numpy.float64], dict(shape=(None, 4),
     """
 
 @overload
-def scale_blocks(at: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factors: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu')]) -> None: ...
-
-@overload
-def scale_blocks(at: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factors: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')]) -> None:
-    """
-    Multiply the numbers of blocks `at` (j,) int32, each once, by factors (j, 9); off_diagonal (blocks + 1, 9).
-    Numbers must exist.
-    """
-
-@overload
 def turn_blocks(turn: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], at: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rows: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu')]) -> None: ...
 
 @overload
 def turn_blocks(turn: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], at: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rows: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')]) -> None:
     """
-    Replace the blocks `at` (j,) int32, which stand in rows and columns (j,) int32, by T_row^T B T_column.
+    Replace the blocks `at` (j,) int32, each once, by T_row^T B T_column.
 
-    turn (k, 9): the matrix T of each slot; off_diagonal (blocks + 1, 9). Numbers must exist.
+    rows, columns (j,) int32: indices in turn (k, 9); off_diagonal (blocks + 1, 9). Numbers must exist.
     """
 
 @overload

@@ -253,7 +253,6 @@ class Mesh(MeshMotion):
         if "_rules" in self.__dict__ and "hexes" not in changes:
             mesh._set(_rules=self.node_rules)
         if "points" not in changes:
-            own = self if "hexes" not in changes else self.without_motion_of_rules()
-            names = ("_motion", "_motion_start", "_own_motion", "_own_start")
-            mesh._set(**{name: own.__dict__[name] for name in names if name in own.__dict__})
+            names = ("_linear",) if "hexes" in changes else ("_linear", "_linear_of_rules")
+            mesh._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
         return mesh

@@ -18,8 +18,8 @@ from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, check_finite
 
 #: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion, and
-#: the linear motion without that of rules.
-_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start", "_own_motion", "_own_start")
+#: the linear motion that includes the one of rules.
+_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_linear", "_linear_of_rules")
 
 
 @dataclass(frozen=True, eq=False)

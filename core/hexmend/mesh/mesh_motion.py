@@ -169,20 +169,28 @@ class MeshMotion(MeshData):
         """
         points = points_like(points, self.points.shape)
         check_finite(points)
-        given = {"_surface": as_immutable(points)}
-        if self.linear_motion is not None:
-            given["_motion_start"] = given["_surface"]
-        if self.__dict__.get("_own_motion") is not None:
-            given["_own_start"] = given["_surface"]
-        return self._copy(*SHARED, **given)
+        points = as_immutable(points)
+        names = [name for name in ("_linear", "_linear_of_rules") if name in self.__dict__]
+        linear = {name: (self.__dict__[name][0], points) for name in names}
+        return self._copy(*SHARED, _surface=points, **linear)
+
+    @property
+    def _constraints(self) -> tuple[LinearMotion | None, np.ndarray]:
+        """The linear motion, and the positions from which its displacements are counted."""
+        return self.__dict__.get("_linear_of_rules") or self.__dict__.get("_linear") or (None, self.points)
 
     @property
     def linear_motion(self) -> LinearMotion | None:
         """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""
-        return self.__dict__.get("_motion")
+        return self._constraints[0]
 
-    def with_linear_motion(self: M, motion: LinearMotion | None) -> M:
-        """Return the mesh with linear constraints on the displacements of its nodes from where they are now.
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self._constraints[1]
+
+    def with_linear_motion(self: M, motion: LinearMotion | None, start: np.ndarray | None = None) -> M:
+        """Return the mesh with linear constraints on the displacements of its nodes.
 
         Nodes that are restricted to a plane or line, tied nodes and those they follow are free to move, also on the
         boundary, unless they are pinned. Nodes that are tied to a fixed node are fixed.
@@ -191,6 +199,8 @@ class MeshMotion(MeshData):
         ----------
         motion : LinearMotion or None
             Constraints that replace those of the mesh; none end them.
+        start : (n, 3) float64, optional
+            Positions from which displacements are counted; by default where the nodes are now.
 
         Returns
         -------
@@ -201,40 +211,29 @@ class MeshMotion(MeshData):
         MeshError
             For a node that does not exist.
         """
+        mesh = self.without_motion_of_rules()._copy("materials", "immovable")
+        mesh.__dict__.pop("_linear", None)
         if not motion:
-            return self._copy("materials")._without("_motion", "_motion_start", "_own_motion", "_own_start")
+            return mesh
         if motion.largest_node >= self.n_nodes:
             raise MeshError(
                 f"the linear motion names node {motion.largest_node}, but the mesh has "
                 f"{count_phrase(self.n_nodes, 'node')}, counted from 0: correct the number"
             )
-        moving = self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
-        return moving._without("_own_motion", "_own_start")
+        mesh._set(_linear=(motion, self.points if start is None else as_immutable(start)))
+        return mesh
 
     def with_motion_of_rules(self: M, motion: LinearMotion) -> M:
         """Return the mesh with a linear motion that includes that of its rules; see `without_motion_of_rules`."""
-        own = self.without_motion_of_rules()
-        start = own.__dict__.get("_motion_start")
-        return self.with_linear_motion(motion)._copy(*SHARED, _own_motion=own.linear_motion, _own_start=start)
+        return self._copy("materials", "immovable", _linear_of_rules=(motion, self.points))
 
     def without_motion_of_rules(self: M) -> M:
         """Return the mesh with the linear motion that it had before rules added theirs."""
-        if "_own_motion" not in self.__dict__:
+        if "_linear_of_rules" not in self.__dict__:
             return self
-        motion, start = self.__dict__["_own_motion"], self.__dict__["_own_start"]
-        mesh = self.with_linear_motion(motion)
-        return mesh if motion is None else mesh._copy(*SHARED, _motion_start=start)
-
-    def _without(self: M, *names: str) -> M:
-        """Remove some attributes of this new copy, and return it."""
-        for name in names:
-            self.__dict__.pop(name, None)
-        return self
-
-    @property
-    def motion_start(self) -> np.ndarray:
-        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
-        return self.__dict__.get("_motion_start", self.points)
+        mesh = self._copy("materials", "immovable")
+        del mesh.__dict__["_linear_of_rules"]
+        return mesh
 
     def constrained(self, points: np.ndarray) -> np.ndarray:
         """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
@@ -244,8 +243,8 @@ class MeshMotion(MeshData):
         points : (n, 3) float64
             Returned themselves if the mesh has no linear motion; not changed.
         """
-        motion = self.linear_motion
-        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
+        motion, start = self._constraints
+        return points if motion is None else constrained_points(motion, start, points, self.free)
 
     def with_fixed(self: M, fixed: np.ndarray) -> M:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.

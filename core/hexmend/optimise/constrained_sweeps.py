@@ -11,12 +11,12 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hexmend.arrays import index_of
-from hexmend.energy import LinearMotionEnergy, MeshEnergy
+from hexmend.arrays import mask
+from hexmend.energy import MeshEnergy
 from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
+from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import LEAST_EIGENVALUE
 
 #: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).
@@ -54,7 +54,7 @@ class ConstrainedSweeps:
         moves = np.zeros(mesh.n_nodes, dtype=bool)
         moves[root[chosen & mesh.free]] = True
         colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)
-        self._parts = [_Colour(energy, root, colours[i]) for i in range(len(colours))]
+        self._parts = [_Colour(energy, colours[i]) for i in range(len(colours))]
 
     def __call__(
         self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch, repeats: int = 1
@@ -81,19 +81,13 @@ class ConstrainedSweeps:
 class _Colour:
     """Independent nodes that share no hex, with the hexes at them and at the nodes tied to them."""
 
-    def __init__(self, energy: MeshEnergy, root: np.ndarray, nodes: np.ndarray):
-        mesh = energy.mesh
-        index = index_of(nodes, mesh.n_nodes)
-        hexes = np.flatnonzero((index[root[mesh.hexes]] >= 0).any(axis=1))
-        self._nodes = np.union1d(mesh.hexes[hexes], nodes)
-        self._nodes = np.union1d(self._nodes, root[self._nodes])
-        number = index_of(self._nodes, mesh.n_nodes)
-        own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]])
-        own = own.with_linear_motion(mesh.linear_motion.renumbered(number))
-        own = own.with_fixed(index[root[self._nodes]] < 0)
-        self._energy = LinearMotionEnergy(energy.on_part(own, hexes, self._nodes))
+    def __init__(self, energy: MeshEnergy, nodes: np.ndarray):
+        region = Region(energy, mask(nodes, energy.mesh.n_nodes))
+        self._energy, self._nodes = region.energy, region.nodes
         # The one independent node at each hex, as a row of the gradient.
-        rows = index_of(self._energy.nodes, own.n_nodes)[number[root[self._nodes]]]
+        own, motion = self._energy.mesh, self._energy.motion
+        rows = np.full(own.n_nodes, -1)
+        rows[motion.free] = np.arange(motion.free.size) if motion.row is None else motion.row
         self._row = rows[own.hexes].max(axis=1)
 
     def step(self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch) -> None:

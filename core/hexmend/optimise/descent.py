@@ -251,7 +251,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     limit += DESCENT.growth_summand
     worsened, halved, moved, changed = np.zeros(len(hexes), dtype=bool), None, None, None
     for trial in range(DESCENT.trials):
-        before = None if energy.has_parts and not energy.limits_moves else moved
+        before = None if energy.motion.has_parts and not energy.limits_moves else moved
         del moved  # large meshes have no memory for two
         moved = energy.moved(x, step)
         if trial > 0:
@@ -263,7 +263,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
         share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes.take(np.flatnonzero(worsened), axis=0)] = True
-        halved = energy.with_masters(halved)
+        halved = energy.with_tied(halved)
         if not energy.ranks.any(halved):
             break
         share[halved] *= 0.5

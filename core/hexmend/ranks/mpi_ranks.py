@@ -76,7 +76,6 @@ class MPIRanks(Ranks):
         return lambda rows: self._exchange(rows, sent, received)
 
     def part(self, positions: np.ndarray) -> MPIRanks:
-        """Return the ranks for a part of the mesh in which node i has the number positions[i], (n,) int; -1: none."""
         return MPIRanks(self.comm, *self._at(positions))
 
     def _at(self, positions: np.ndarray) -> tuple[Rows, Rows]:

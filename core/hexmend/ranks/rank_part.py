@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pymetis
 
 from hexmend.arrays import index_of, mask
+from hexmend.energy import Motion
 from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
@@ -47,6 +49,11 @@ class RankPart:
     owned: np.ndarray
     counted: np.ndarray
     n_hexes: int
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Motion of the free nodes that this rank owns."""
+        return Motion(self.mesh, owned=self.owned, ranks=self.ranks)
 
 
 def divide(mesh: Mesh, count: int) -> np.ndarray:

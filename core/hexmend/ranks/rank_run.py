@@ -9,9 +9,9 @@ from time import perf_counter
 import numpy as np
 
 from hexmend.arrays import largest_norm
+from hexmend.energy import MeshEnergy
 from hexmend.iteration import Outcome, Step, StoppingCriteria
 from hexmend.quality import ElementQuality, measure, measure_against_target
-from hexmend.ranks.rank_energy import RankEnergy
 from hexmend.ranks.rank_part import RankPart
 from hexmend.ranks.rank_sliding import RankSliding
 from hexmend.ranks.rank_stages import RankStages
@@ -27,7 +27,7 @@ class RankFigures:
     q_mean: float
 
     @classmethod
-    def of(cls, energy: RankEnergy, quality: ElementQuality) -> RankFigures:
+    def of(cls, energy: MeshEnergy, quality: ElementQuality) -> RankFigures:
         """Take them together from the quality of the hexes of the part of each rank."""
         least = energy.ranks.least(float(quality.q.min(initial=np.inf)))
         return cls(energy.count(quality.invalid), least, energy.mean(quality.q))
@@ -70,7 +70,7 @@ class RankRun(Iterator[RankFigures]):
     def __post_init__(self) -> None:
         began = perf_counter()
         mesh = self.part.mesh
-        self._energy = RankEnergy(self.part, self.smoother.norm)
+        self._energy = MeshEnergy(mesh, self.smoother.norm, motion=self.part.motion)
         self._stages = RankStages(self.smoother, self.part, self.sliding)
         self._steps = self._stages.steps(mesh)
         next(self._steps)

@@ -11,9 +11,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
-from hexmend.ranks.rank_energy import RankEnergy
 from hexmend.ranks.rank_part import RankPart
-from hexmend.ranks.rank_sliding import RankSliding, RankSlidingEnergy
+from hexmend.ranks.rank_sliding import RankSliding
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.mend.floors import BARRIER_SAFE
@@ -80,7 +79,8 @@ class RankStages(Stages):
             if balances:
                 fixed = yield from reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
                 given, kept = fixed.points, measure(fixed.points, mesh.hexes)
-            energy = RankSlidingEnergy(sliding, self.settings.first_norm_on(sliding.mesh))
+            norm = self.settings.first_norm_on(sliding.mesh)
+            energy = MeshEnergy(sliding.mesh, norm, motion=sliding.motion)
             steps = self._shape(sliding.with_points(shape.points), energy, True)
             shape = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
             starts = [given, shape.points]
@@ -94,8 +94,8 @@ class RankStages(Stages):
         self.unsound = self._is_invalid_inside(reached.points)
         return Outcome.NO_IMPROVEMENT
 
-    def _energy(self, mesh: Mesh, norm: ObjectiveNorm) -> RankEnergy:
-        return RankEnergy(self._part, norm)
+    def _energy(self, mesh: Mesh, norm: ObjectiveNorm) -> MeshEnergy:
+        return MeshEnergy(self._part.mesh, norm, motion=self._part.motion)
 
     def _is_unsound(self, energy: MeshEnergy, points: np.ndarray) -> bool:
         """Return True if the minimum scaled Jacobian of what can be moved is too low for the barrier of floors."""

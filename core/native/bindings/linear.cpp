@@ -67,13 +67,9 @@ template <class Real> void bind_vectors(nb::module_ m) {
           "Row k of of_nodes belongs to slot order[k], int32.");
     m.def("from_slots", &from_slots<Real>, "of_slots"_a, "order"_a, "scale"_a, "of_nodes"_a, ReleaseGil(),
           "Write vectors of slots (k, 4), times a scale, to nodes (k, 3); see `to_slots`.");
-    m.def(
-        "scale_blocks", &scale_blocks<Real>, "at"_a, "factors"_a, "off_diagonal"_a, ReleaseGil(),
-        "Multiply the numbers of blocks `at` (j,) int32, each once, by factors (j, 9); off_diagonal (blocks + 1, 9).\n"
-        "Numbers must exist.");
     m.def("turn_blocks", &turn_blocks<Real>, "turn"_a, "at"_a, "rows"_a, "columns"_a, "off_diagonal"_a, ReleaseGil(),
-          "Replace the blocks `at` (j,) int32, which stand in rows and columns (j,) int32, by T_row^T B T_column.\n\n"
-          "turn (k, 9): the matrix T of each slot; off_diagonal (blocks + 1, 9). Numbers must exist.");
+          "Replace the blocks `at` (j,) int32, each once, by T_row^T B T_column.\n\n"
+          "rows, columns (j,) int32: indices in turn (k, 9); off_diagonal (blocks + 1, 9). Numbers must exist.");
     m.def("turn_diagonal", &turn_diagonal<Real>, "turn"_a, "slots"_a, "diagonal"_a, ReleaseGil(),
           "Replace the diagonal blocks D of `slots` (k,) int32, each once, by T^T D T.\n\n"
           "turn (k, 9): T of each; diagonal (s, 6): xx xy xz yy yz zz of each slot. Numbers must exist.");

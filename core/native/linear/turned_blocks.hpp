@@ -5,16 +5,6 @@
 
 namespace hexmend {
 
-// Multiply the numbers of the blocks `at` (j,), none of them twice, by factors (j, 9).
-template <class Real>
-void scale_blocks(Indices at, std::span<const std::array<Real, 9>> factors, std::span<std::array<Real, 9>> blocks) {
-    constexpr std::int64_t BLOCKS_PER_CHUNK = 4096;
-    expect(factors.size() == at.size(), "factors: a row for each of at is expected");
-    parallel_for(at.size(), BLOCKS_PER_CHUNK, [&](std::int64_t i) {
-        for (int k = 0; k < 9; ++k) blocks[at[i]][k] *= factors[i][k];
-    });
-}
-
 // Replace the diagonal blocks D of `slots` (k,), none of them twice, by T^T D T, with turn T (k, 9).
 template <class Real>
 void turn_diagonal(std::span<const std::array<Real, 9>> turn, Indices slots, std::span<std::array<Real, 6>> diagonal);
@@ -25,7 +15,7 @@ template <class Real>
 void project_diagonal(std::span<const std::array<Real, 9>> projectors, Indices slots,
                       std::span<std::array<Real, 6>> diagonal);
 
-// Replace the blocks `at` (j,), which stand in rows and columns (j,), by T_row^T B T_column; turn holds T of each slot.
+// Replace the blocks `at` (j,) by T_row^T B T_column: rows and columns (j,) are indices in `turn`.
 template <class Real>
 void turn_blocks(std::span<const std::array<Real, 9>> turn, Indices at, Indices rows, Indices columns,
                  std::span<std::array<Real, 9>> off_diagonal) {

@@ -6,11 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.hex_energy import pack_corners
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.errors import MeshError
+from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -30,7 +31,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, parts):
     """Assemble the matrix with another division of its slots."""
-    hessian.energy.ordered_nodes = BlockSparsity(hessian.energy.mesh, parts)
+    hessian.energy.reduction.ordered_nodes = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
 
@@ -140,7 +141,9 @@ def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_
     assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()
 
 
-@pytest.mark.parametrize("of", [MeshEnergy, lambda mesh: SlidingEnergy(SlidingBoundary(mesh))], ids=["free", "sliding"])
+@pytest.mark.parametrize(
+    "of", [MeshEnergy, lambda mesh: projected_energy(SlidingBoundary(mesh))], ids=["free", "sliding"]
+)
 @pytest.mark.parametrize("shape", [(3,), (8, 3)])
 def test_a_vector_of_another_length_is_refused_by_every_matrix(of, shape):
     mesh = grid(3)

@@ -18,7 +18,7 @@ parts = pytest.mark.parametrize("parts", [1, 3])
 def assembled(mesh, parts=1, distance=2, shift=0.0, precision=np.float64):
     """A Hessian with aggregates of that size, which larger meshes have."""
     energy = MeshEnergy(mesh, ObjectiveNorm(2.0))
-    energy.ordered_nodes = BlockSparsity(mesh, parts)
+    energy.reduction.ordered_nodes = BlockSparsity(mesh, parts)
     energy.sparsity.coarse_space = CoarsePattern(*energy.sparsity.aggregates(distance))
     hessian = energy.hessian(energy.to_edge_units(mesh.points), 0.0)
     return hessian.shifted(shift).assembled(precision)

@@ -19,7 +19,7 @@ def both(mesh, delta=0.0, p=2.0, parts=None, shares=1):
     """Assemble the Hessian of a mesh in single precision, as it is and packed."""
     energy = MeshEnergy(mesh, ObjectiveNorm(p))
     if parts:
-        energy.ordered_nodes = BlockSparsity(mesh, parts)
+        energy.reduction.ordered_nodes = BlockSparsity(mesh, parts)
     x = energy.to_edge_units(mesh.points)
     whole = energy.hessian(x, delta).assembled()
     packed = AssembledHessian.zero(energy.sparsity, np.float32, packed=True)

@@ -6,10 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import POLICIES, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import POLICIES, ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
 from hexmend.energy.quads.quad_energy import QuadCorners
 from tests.core.boundary.solids import slid
+from tests.core.energy.projected import projected_energy
 from tests.core.energy.test_sliding_energy import SOLIDS, along_the_surface
 from tests.core.grids import grid
 
@@ -72,7 +73,7 @@ def with_quads(solid, seed, p, offset=1.0):
     """Return the energy of a solid with moved nodes and its quads, their positions, and a tangential step."""
     there, norm = slid(SOLIDS[solid](), 0.2, seed), ObjectiveNorm(p, offset)
     sliding = SlidingBoundary(SOLIDS[solid]())
-    energy = SlidingEnergy(sliding, norm)
+    energy = projected_energy(sliding, norm)
     term = SurfaceQuads(sliding, norm, 3.0).at(there.points, 0.05, POLICIES["fixed"](0.05))
     x = energy.to_edge_units(there.points)
     return energy.with_surface(term), x, along_the_surface(sliding, there.points, seed)

@@ -7,10 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.arrays import mask
 from hexmend.boundary import NodeClass, SlidingBoundary
-from hexmend.energy import ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, Motion, ObjectiveNorm
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid
 
 SOLIDS = {"block": lambda: grid(3, 2, 2), "cylinder": lambda: cylinder(16, 3), "ball": lambda: ball(3)}
@@ -33,7 +35,7 @@ def at(solid, seed, p):
     """Return the energy of a solid with moved nodes, their positions in mean edge lengths, and a tangential step."""
     there = slid(SOLIDS[solid](), 0.2, seed)
     sliding = SlidingBoundary(SOLIDS[solid]())
-    energy = SlidingEnergy(sliding, ObjectiveNorm(p))
+    energy = projected_energy(sliding, ObjectiveNorm(p))
     return energy, energy.to_edge_units(there.points), along_the_surface(sliding, there.points, seed)
 
 
@@ -74,9 +76,9 @@ def test_off_the_surface_nothing_is_coupled_and_no_eigenvalue_is_an_extreme(soli
     energy, x, _ = at(solid, seed, p)
     matrix = energy.hessian(x, 0.05).assembled(np.float64)
     whole = np.stack([matrix @ one for one in np.eye(matrix.shape[0])])
-    rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
+    rows = np.searchsorted(energy.nodes, energy.motion.projected)
     projector = np.eye(len(whole))
-    for row, along in zip(rows, energy.projectors(x), strict=True):
+    for row, along in zip(rows, energy.motion.turn(x), strict=True):
         projector[3 * row : 3 * row + 3, 3 * row : 3 * row + 3] = along
     off = np.eye(len(whole)) - projector
     np.testing.assert_allclose(off @ whole @ projector, 0, atol=1e-9 * np.abs(whole).max())
@@ -104,3 +106,17 @@ def test_values_that_are_kept_are_those_of_another_energy_only_where_it_is_the_s
             assert values[-1] == fresh.value(x.copy(), delta) == of.value(x, delta)
             np.testing.assert_array_equal(of.with_barriers(x, delta), each)
     assert len(set(values)) == len(values) // 2
+
+
+def test_a_rank_whose_neighbours_alone_own_sliding_nodes_moves_its_own_in_space():
+    sliding = SlidingBoundary(cylinder(16, 3))
+    mesh, slides = sliding.mesh, mask(sliding.nodes, sliding.mesh.n_nodes)
+    energy = MeshEnergy(mesh, motion=Motion(mesh, sliding, sliding.nodes, owned=~slides))
+    whole, x = MeshEnergy(mesh), energy.to_edge_units(mesh.points)
+    gradient, own = energy.gradient(x, 0.1), ~slides[whole.nodes]
+    np.testing.assert_array_equal(gradient, whole.gradient(x, 0.1)[own])
+    np.testing.assert_array_equal(energy.moved(x, gradient)[slides], x[slides])
+    assert energy.directional_derivative(x, 0.1, -gradient, gradient) == pytest.approx(-(gradient**2).sum())
+    diagonal = energy.hessian(x, 0.1).assembled(np.float64).diagonal_blocks
+    of_all = whole.hessian(x, 0.1).assembled(np.float64).diagonal_blocks
+    np.testing.assert_allclose(diagonal, of_all[own], rtol=1e-12, atol=1e-12 * np.abs(of_all).max())

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
+from tests.core.energy.projected import projected_energy
 
 POWERS = ObjectiveNorm(2.0, 1.0), ObjectiveNorm(4.0, 0.0)
 
@@ -16,7 +17,7 @@ POWERS = ObjectiveNorm(2.0, 1.0), ObjectiveNorm(4.0, 0.0)
 def energies_of(kind):
     """Make two energies of one mesh that share the data that depend on the mesh alone."""
     mesh = make("bridge-sharp", size=2000)
-    first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(SlidingBoundary(mesh), POWERS[0])
+    first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else projected_energy(SlidingBoundary(mesh), POWERS[0])
     return first, first.with_objective(POWERS[1], first.omitted)
 
 

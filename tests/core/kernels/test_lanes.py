@@ -169,7 +169,7 @@ def test_a_node_beside_a_collapsed_corner_is_left_alone():
 def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     mesh = scrambled(grid(20), 0.3)
     energy = MeshEnergy(mesh)
-    energy.ordered_nodes = BlockSparsity(mesh, parts)
+    energy.reduction.ordered_nodes = BlockSparsity(mesh, parts)
     assert energy.sparsity.bounds.size == 2 * parts
     x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
     colours = mesh.topology.colouring(mesh.free)

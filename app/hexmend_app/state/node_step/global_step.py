@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.energy import energy_of
+from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
@@ -39,7 +39,7 @@ class _RecordedSearch(LineSearch):
 
 def global_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     """Return the part of one node in the method's next step."""
-    energy = energy_of(mesh, smoother.norm)
+    energy = MeshEnergy(mesh, smoother.norm)
     search = _RecordedSearch(smoother.line_search)
     x = energy.to_edge_units(mesh.points)
     delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.hex_sizes)

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import mask, row_norms
 from hexmend.boundary.classification import NodeClass, classify
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_corners
@@ -18,6 +18,7 @@ from hexmend.boundary.sliding.flat_parts import flat_motion
 from hexmend.boundary.sliding.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
 from hexmend.boundary.sliding.sliding_nodes import SlidingNodes
 from hexmend.boundary.surface import PartitionedSurface
+from hexmend.boundary.tolerances import FLAT_DISTANCE
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
@@ -118,9 +119,34 @@ class SlidingBoundary(SlidingNodes):
     @cached_property
     def curved_nodes(self) -> np.ndarray:
         """Sliding nodes that are neither on a flat patch nor on a straight curve, ascending, (k,) int64."""
-        if self._given is not None:  # a surface of its own
-            return self.nodes
         return self.nodes[~self._flat.marks(self.mesh.n_nodes)[self.nodes]]
+
+    def rejected(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray | None:
+        """See `SlidingNodes.rejected`; nodes that leave their flat patch or straight curve are marked too.
+
+        The band alone would let them go across its rim: they are in the plane or on the line still, and near the
+        surface. A node that was outside may come nearer.
+        """
+        marks, nodes = super().rejected(before, after, changed), self._flat_nodes
+        nodes = nodes if changed is None else nodes[changed[nodes]]
+        away = self._distances(after, nodes)
+        outside = away > FLAT_DISTANCE * (self.mesh.mean_edge_length or 1.0)
+        nodes, away = nodes[outside], away[outside]
+        if not nodes.size:
+            return marks
+        nodes = nodes[away > self._distances(before, nodes)]
+        if nodes.size:
+            marks = mask(nodes, len(after)) if marks is None else marks | mask(nodes, len(after))
+        return marks
+
+    @cached_property
+    def _flat_nodes(self) -> np.ndarray:
+        """Sliding nodes on flat patches and straight curves, ascending, (k,) int64."""
+        return np.setdiff1d(self.nodes, self.curved_nodes, assume_unique=True)
+
+    def _distances(self, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """Distances of sliding nodes (k,) from their curves and patches, (k,)."""
+        return row_norms(self.project(points[nodes], nodes) - points[nodes])
 
     @cached_property
     def linear_mesh(self) -> Mesh:
@@ -130,18 +156,21 @@ class SlidingBoundary(SlidingNodes):
     def linear_mesh_without(self, leaving: np.ndarray) -> Mesh:
         """Return `linear_mesh` with some nodes (n,) bool free: they move in all directions, off the surface too."""
         mesh = self.mesh.with_fixed(self.mesh.fixed & ~leaving)
-        if self._given is not None or not self._flat:
+        if not self._flat:
             return mesh
-        flat = flat_motion(self.points, self.boundary, self.nodes[~leaving[self.nodes]], self.mesh.mean_edge_length)
+        flat = self._flat.renumbered(np.where(leaving, -1, np.arange(leaving.size)))
         if not flat:
             return mesh
         start, given = mesh.motion_start.copy(), mesh.linear_motion
         start[flat.nodes] = self.points[flat.nodes]
         motion = flat if given is None else given.merge(flat)
-        return mesh.with_points(start).with_linear_motion(motion).with_points(mesh.points).with_fixed(mesh.fixed)
+        return mesh.with_linear_motion(motion, start).with_fixed(mesh.fixed)
 
     @cached_property
     def _flat(self) -> LinearMotion:
+        """Motion of the nodes on flat patches and straight curves of the boundary; none on a surface of its own."""
+        if self._given is not None:
+            return LinearMotion()
         return flat_motion(self.points, self.boundary, self.nodes, self.mesh.mean_edge_length)
 
     @cached_property

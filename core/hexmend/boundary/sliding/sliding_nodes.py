@@ -198,6 +198,12 @@ class SlidingNodes(Band):
         found[outside] = True
         return np.flatnonzero(found)
 
+    def rejected(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray | None:
+        """Mark those of `rejected_nodes` that move, (n,) bool; None if there are none."""
+        nodes = self.rejected_nodes(before, after, changed)
+        nodes = nodes[differing_rows(before[nodes], after[nodes])]
+        return mask(nodes, len(after)) if nodes.size else None
+
     def reject_moves(
         self, before: np.ndarray, after: np.ndarray, harmed: Callable[[np.ndarray], np.ndarray] = lambda after: NO_NODES
     ) -> np.ndarray:

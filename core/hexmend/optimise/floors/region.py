@@ -1,4 +1,4 @@
-"""Part of a mesh around some of its hexes, whose nodes alone are moved."""
+"""Part of a mesh around some of its nodes, which alone are moved."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from hexmend.mesh.mesh import Mesh
 
 
 class Region:
-    """The free nodes of some hexes, with all hexes at these nodes; other nodes stay.
+    """Some free nodes of a mesh and those tied to them, with all hexes at these nodes; other nodes stay.
 
     Parameters
     ----------
     energy : MeshEnergy
         Of the whole mesh; it has parts.
-    hexes : (k,) int
-        Hexes whose free nodes move.
-    x : (n, 3) float64
-        Positions of all nodes, in mean edge lengths.
+    moves : (n,) bool
+        The nodes; fixed ones stay.
+    x : (n, 3) float64, optional
+        Positions of all nodes, in mean edge lengths, if the energy has a term of the boundary.
 
     Attributes
     ----------
@@ -27,24 +27,26 @@ class Region:
         Of the part, at positions in the whole mesh's mean edge length.
     hexes : (j,) int64
         Hexes of the part, ascending.
+    nodes : (p,) int64
+        Nodes of these hexes, ascending.
     """
 
-    def __init__(self, energy: MeshEnergy, hexes: np.ndarray, x: np.ndarray):
+    def __init__(self, energy: MeshEnergy, moves: np.ndarray, x: np.ndarray | None = None):
         mesh = energy.mesh
-        moves = energy.ranks.complete(mask(mesh.hexes[hexes], mesh.n_nodes) & mesh.free)
+        moves = energy.with_tied(moves & mesh.free)
         attached = np.flatnonzero(moves[mesh.hexes].any(axis=1))
         self.hexes = attached = attached if attached.size else np.array([0])  # those that move are other ranks'
-        self._nodes = np.flatnonzero(mask(mesh.hexes[attached], mesh.n_nodes))
-        number = index_of(self._nodes, mesh.n_nodes)
-        part = Mesh(mesh.points[self._nodes], number[mesh.hexes[attached]]).with_fixed(~moves[self._nodes])
-        self.energy = energy.on_part(part, attached, self._nodes, x)
+        self.nodes = np.flatnonzero(mask(mesh.hexes[attached], mesh.n_nodes))
+        number = index_of(self.nodes, mesh.n_nodes)
+        part = Mesh(mesh.points[self.nodes], number[mesh.hexes[attached]]).with_fixed(~moves[self.nodes])
+        self.energy = energy.on_part(part, attached, self.nodes, x)
 
     def inside(self, x: np.ndarray) -> np.ndarray:
         """Select the positions of the part's nodes from all positions x (n, 3)."""
-        return x[self._nodes]
+        return x[self.nodes]
 
     def merged(self, x: np.ndarray, part: np.ndarray) -> np.ndarray:
         """Return x (n, 3) with the positions of the part's nodes."""
         merged = x.copy()
-        merged[self._nodes] = part
+        merged[self.nodes] = part
         return merged

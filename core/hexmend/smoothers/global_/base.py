@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, energy_of
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy
 from hexmend.iteration import Outcome, Step
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
@@ -39,7 +39,7 @@ class GlobalDescent(Optimiser):
         if mesh.linear_motion is not None:
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         sliding = self.sliding(mesh)
-        energy = energy_of(mesh, self.norm, sliding)
+        energy = MeshEnergy(mesh, self.norm) if sliding is None else MeshEnergy.on_surface(sliding, self.norm)
         find, policy, search = self.direction(), self.policy(energy), self.search(energy)
         points = energy.mesh.points
         x, quads = energy.to_edge_units(points), self.surface_quads(sliding)

@@ -143,7 +143,7 @@ class _Certification:
         """
         energy, config, none = self._energy, self._config, np.zeros(len(cured), dtype=bool)
         x = energy.to_edge_units(self._points)
-        region = Region(energy, np.flatnonzero(self._around(cured)), x)
+        region = Region(energy, mask(energy.mesh.hexes[self._around(cured)], energy.mesh.n_nodes), x)
         barrier = MovableHexes(region.energy).barrier(*self._floors, config.band, config.band, 1.0)
         part, y = region.energy.with_barrier(barrier), region.inside(x)
         validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)

@@ -255,9 +255,9 @@ class Floors:
         energy, mesh = self.energy, self.energy.mesh
         for _ in range(self._config.rings):
             near = energy.ranks.complete(mask(mesh.hexes[near], mesh.n_nodes))[mesh.hexes].any(axis=1)
-        if not energy.has_parts or 2 * energy.count(near) > energy.n_hexes:
+        if not energy.motion.has_parts or 2 * energy.count(near) > energy.n_hexes:
             return energy, self._hexes, None
-        region = Region(energy, np.flatnonzero(near), self.values.x)
+        region = Region(energy, mask(mesh.hexes[near], mesh.n_nodes), self.values.x)
         return region.energy, self._movable(region.energy), region
 
     def _take(self, region: Region | None, hexes: MovableHexes, x: np.ndarray) -> None:

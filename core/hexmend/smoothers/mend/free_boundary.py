@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.arrays import as_immutable_owned, mask
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.barriers.surface_fit import NO_LIMIT, FitTolerances, SurfaceFit
 from hexmend.iteration import Step, map_steps
 from hexmend.mesh.mesh import Mesh
@@ -111,7 +111,7 @@ class FreeBoundary:
             self.mesh = self.mesh.with_fixed(self.mesh.fixed | curved)
         self.free = (leaving | curved) & moves & ~self.mesh.fixed
         released = reaches & sliding.leavable & self.free
-        self.energy = energy_of(self.mesh, norm)
+        self.energy = MeshEnergy(self.mesh, norm)
         fit = SurfaceFit(sliding, self.free, released, tolerances, self.energy.unit)
         self.fit = fit.with_weights(FLOORS.fit_share)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energy_of
+from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
@@ -37,7 +37,7 @@ class ShapeStages:
 
     def _energy(self, mesh: Mesh, norm: ObjectiveNorm) -> MeshEnergy:
         """The energy of a mesh whose boundary is fixed."""
-        return energy_of(mesh, norm)
+        return MeshEnergy(mesh, norm)
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape; a refined mesh starts from its coarse mesh's optimum."""
@@ -47,7 +47,7 @@ class ShapeStages:
         mesh = mesh if start is mesh.points else mesh.with_points(start)
         untangled = yield from self._untangle(mesh, energy, locked)
         left = untangled.left(locked, energy)
-        if left and energy.norm.p < SQUARES.p and not energy.faceted:
+        if left and energy.norm.p < SQUARES.p:
             # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
             again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), locked)
             untangled = again if again.left(locked, energy) < left else untangled

@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, energy_of
+from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import unpack_corners
 from hexmend.iteration import Outcome, Step, map_steps
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
@@ -113,7 +113,7 @@ class Stages(ShapeStages):
         starts = [points]
         if is_sound:  # the shape improves faster along the surface itself
             width = max(tolerances.patches, 1e-9) * mesh.mean_edge_length
-            energy = energy_of(sliding.mesh, settings.first_norm_on(mesh), sliding.with_band(width))
+            energy = MeshEnergy.on_surface(sliding.with_band(width), settings.first_norm_on(mesh))
         if not (is_sound and settings.maximises_jacobian):
             shape = yield from keeping(kept, hexes, self._optimum(energy, points), is_lower)
             starts.append(shape.points)

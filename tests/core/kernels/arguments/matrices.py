@@ -63,7 +63,6 @@ def _matrices() -> Iterator[Row]:
     yield row(f"{family}.solve", rhs=k, x=k, work=work, **matrix, **limits, **none)
     yield row(f"{family}.to_slots", of_nodes=k, order=order, scale=1.0, of_slots=k)
     yield row(f"{family}.from_slots", of_nodes=k, order=order, scale=1.0, of_slots=k)
-    yield row(f"{family}.scale_blocks", "off_diagonal", at=two, factors=2, off_diagonal=size)
     yield row(f"{family}.turn_blocks", "turn off_diagonal", turn=k, at=two, rows=2, columns=2, off_diagonal=size)
     yield row(f"{family}.turn_diagonal", "diagonal", turn=2, slots=two, diagonal=k)
     yield row(f"{family}.project_diagonal", "diagonal", projectors=2, slots=two, diagonal=k)

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import as_immutable_owned
-from hexmend.energy import MeshEnergy, energy_of
+from hexmend.energy import MeshEnergy
 from hexmend.energy.ranks import ONE_RANK
-from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.refinement import Refinement, find_refinement
 
@@ -90,7 +89,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
     if refinement is None:
         return None
     coarse = _coarse_mesh(mesh.points, energy.mesh, refinement)
-    problem = energy_of(coarse, energy.norm)
+    problem = MeshEnergy(coarse, energy.norm)
     if not problem.nodes.size:
         return None
     return CoarseProblem(energy, mesh.points, refinement, coarse, problem)
@@ -101,8 +100,5 @@ def _coarse_mesh(points: np.ndarray, fine: Mesh, refinement: Refinement) -> Mesh
     vertices, motion = refinement.vertices, fine.linear_motion
     coarse = Mesh(points[vertices], refinement.hexes)
     if motion is not None:
-        own = np.flatnonzero(refinement.number[motion.nodes] >= 0)
-        motion = LinearMotion(refinement.number[motion.nodes[own]].astype(np.int64), motion.projectors[own])
-        start = coarse.with_points(fine.motion_start[vertices])
-        coarse = start.with_linear_motion(motion).with_points(coarse.points)
+        coarse = coarse.with_linear_motion(motion.renumbered(refinement.number), fine.motion_start[vertices])
     return coarse.with_fixed(fine.fixed[vertices])
