@@ -13,7 +13,7 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.topology.marked_rows import any_of_rows
-from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, TruncatedNewton, steepest_descent
+from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, steepest_descent
 
 
 @dataclass(frozen=True)

@@ -100,8 +100,9 @@ class TruncatedNewton:
 
     The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
     1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
-    would fall below the square root of a rounding error of the first. If the Hessian is not positive definite, its diagonal is increased
-    until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
+    would fall below the square root of a rounding error of the first. If the Hessian is not positive definite, its
+    diagonal is increased until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less
+    than a short step.
 
     An object serves one sequence of steps: tolerance and damping follow from the step before.
 

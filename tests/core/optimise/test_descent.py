@@ -9,7 +9,7 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.kernels import step_limits
 from hexmend.kernels.line_search import LineSearch
-from hexmend.optimise.descent import DESCENT, descend, is_perfect, shorten_to_range
+from hexmend.optimise.descent import LARGEST_COORDINATE, descend, is_perfect, shorten_to_range
 from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton, steepest_descent
 from tests.core.grids import grid, scrambled
 

@@ -14,7 +14,6 @@ from hexmend.smoothers.mend.floors import Floors, Values
 from hexmend.terminal_text import count_phrase
 
 
-
 def omission_message(by_fixed: int, others: int) -> str:
     """Tell how many hexes have corners that the energy omits.
 
