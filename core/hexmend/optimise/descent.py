@@ -13,7 +13,13 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.topology.marked_rows import any_of_rows
-from hexmend.optimise.search_direction import DirectionMethod, SearchDirection, steepest_descent
+from hexmend.optimise.search_direction import (
+    NEGLIGIBLE,
+    DirectionMethod,
+    SearchDirection,
+    TruncatedNewtonConfig,
+    steepest_descent,
+)
 
 
 @dataclass(frozen=True)
@@ -27,17 +33,11 @@ class DescentConfig:
         later they are set to 0. Also the number of times that steps are halved around hexes above their bound, at most.
     growth_factor, growth_summand : float
         Bound of a hex's energy after a step: a factor of the energy before, and a summand.
-    stay_below : float
-        Share of its step from which on an infeasible node stays: it has come to the end of its band.
-    negligible : float
-        Slope, as a share of the energy, up to which a direction with a short step is not damped more.
     """
 
-    trials: int = 6
+    trials: int = TruncatedNewtonConfig.max_damping_increases
     growth_factor: float = 2.0
     growth_summand: float = 1.0
-    stay_below: float = 0.25
-    negligible: float = 1e-6
 
     @property
     def short(self) -> float:
@@ -167,7 +167,7 @@ def _search(
 
 def _is_poor(taken: Descent | None) -> bool:
     """Return True if there is no step, or the step is short although the energy falls along it."""
-    return taken is None or (taken.alpha < DESCENT.short and -taken.slope > DESCENT.negligible * taken.value)
+    return taken is None or (taken.alpha < DESCENT.short and -taken.slope > NEGLIGIBLE * taken.value)
 
 
 def _lower(energy: MeshEnergy, delta: float, one: Descent | None, other: Descent | None) -> Descent | None:
@@ -245,7 +245,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     step : (k, 3) float64
         Of the free nodes, in mean edge lengths; changed.
     """
-    hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
+    hexes = energy.mesh.hexes
     limit = energy.with_barriers(x, delta)
     limit *= DESCENT.growth_factor
     limit += DESCENT.growth_summand
@@ -261,15 +261,11 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
         worsened[some] = ~(energy.with_barriers(moved, delta, at) <= limit[some])
         infeasible = energy.infeasible_nodes(x, moved, changed)
         halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
-        share[halved & (share <= DESCENT.stay_below)] = 0.0
         halved[hexes.take(np.flatnonzero(worsened), axis=0)] = True
         halved = energy.with_tied(halved)
         if not energy.ranks.any(halved):
             break
-        share[halved] *= 0.5
-        rows = np.flatnonzero(halved.take(energy.nodes))
-        step[rows] *= 0.5
-        step[rows[share.take(energy.nodes[rows]) == 0]] = 0.0
+        step[halved.take(energy.nodes)] *= 0.5
     else:
         if infeasible is not None:
             step[infeasible[energy.nodes]] = 0.0  # in many steps they would leave their band all the same

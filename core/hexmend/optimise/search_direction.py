@@ -14,8 +14,9 @@ from hexmend.optimise.linear_solvers import LinearSolver
 
 #: Share of the greatest eigenvalue to which lower ones are raised: a thousandth, by Algorithm A.4.
 LEAST_EIGENVALUE = 1e-3
-#: Share of the first gradient at which a solution is as good as rounding allows.
-_GRADIENT_FLOOR = float(np.sqrt(np.finfo(float).eps))
+#: Share of a quantity at which its changes are no more than what rounding leaves: of the first gradient for solutions,
+#: and of the energy for slopes.
+NEGLIGIBLE = float(np.sqrt(np.finfo(float).eps))
 
 
 @dataclass(frozen=True)
@@ -78,9 +79,8 @@ class TruncatedNewtonConfig:
     max_damping_increases : int
         Most increases of the damping in a step.
     damping_factor : float
-        Factor of an increase, and divisor after a step for which the damping was enough.
-    min_damping : float
-        Smallest damping that is not 0, as a share of the diagonal.
+        Factor of an increase, and divisor after a step for which the damping was enough. The smallest damping that is
+        not 0, as a share of the diagonal, is the tightest tolerance: a solution does not feel less.
     deflated : bool
         Deflate solutions by translations of aggregates of nodes: best where many iterations are needed. More than the
         smallest damping shortens long waves, so that a few iterations are enough: such solutions are not deflated.
@@ -91,7 +91,6 @@ class TruncatedNewtonConfig:
     tightest: float = 1e-3
     max_damping_increases: int = 6
     damping_factor: float = 4.0
-    min_damping: float = 0.002
     deflated: bool = False
 
 
@@ -128,7 +127,7 @@ class TruncatedNewton:
         matrix.lend_memory()  # to the next gradient
         self._used_damping = damping
         self._damping = damping if damping > self._damping else damping / config.damping_factor
-        if self._damping < config.min_damping:
+        if self._damping < config.tightest:
             self._damping = 0.0
         self._next_damping = self._damping
         np.negative(solved.x, out=solved.x)
@@ -200,11 +199,11 @@ class TruncatedNewton:
         return solved, damping, count
 
     def _increased(self, damping: float) -> float:
-        return max(self.config.damping_factor * damping, self.config.min_damping)
+        return max(self.config.damping_factor * damping, self.config.tightest)
 
     def _solve(self, matrix: AssembledHessian, right: np.ndarray, tolerance: float, damping: float) -> CGResult:
         config = self.config
-        deflated = config.deflated and damping <= config.min_damping
+        deflated = config.deflated and damping <= config.tightest
         return matrix.solve(right, tolerance, config.iterations, damping, deflated)
 
     def _tolerance(self, length: float) -> float:
@@ -214,7 +213,7 @@ class TruncatedNewton:
         loosest = self.config.loosest
         if length == 0:
             return loosest
-        goal = max(0.9 * (length / self._last) ** 2, _GRADIENT_FLOOR * self._first / length)
+        goal = max(0.9 * (length / self._last) ** 2, NEGLIGIBLE * self._first / length)
         self._last = length
         return float(np.clip(goal, self.config.tightest, loosest))
 

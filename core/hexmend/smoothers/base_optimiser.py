@@ -11,6 +11,9 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.parameters import parameter
 from hexmend.smoothers.targeted_smoother import TargetedSmoother
 
+#: Greatest exponent of the objective: higher powers of eta overflow.
+MAX_P = 32
+
 
 @dataclass(frozen=True)
 class ObjectiveSmoother(TargetedSmoother):
@@ -19,7 +22,7 @@ class ObjectiveSmoother(TargetedSmoother):
     optimises = True
 
     p: float = parameter(
-        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
+        2.0, low=1, high=MAX_P, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
     offset: float = parameter(
         1.0,

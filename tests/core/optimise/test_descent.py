@@ -79,7 +79,7 @@ def test_only_what_rounding_leaves_is_perfect(delta):
     assert not is_perfect(energy, 0.9, delta)
 
 
-@pytest.mark.parametrize("longest", [1e200, -1e200, -1e101])
+@pytest.mark.parametrize("longest", [1e200, -1e200, -1e104])
 @pytest.mark.parametrize("unit", [1.0, 1e3])
 def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction(longest, unit):
     step = np.array([[longest, 0.5 * longest, 0.0], [0.0, -0.25 * longest, 1.0]])
@@ -107,13 +107,13 @@ class Ascending(TruncatedNewton):
 
 
 @pytest.mark.parametrize("floors", [False, True])
-def test_a_direction_that_does_not_descend_is_damped_unless_floors_hold_the_hexes(floors):
+def test_a_direction_that_does_not_descend_is_damped_with_floors_too(floors):
     mesh, energy, x = problem(1)
     if floors:
         least = np.full(mesh.n_hexes, 1e-3)
         energy = energy.with_barrier(FloorBarrier(least, least, np.zeros(mesh.n_hexes, np.uint8), 0.1, 0.1, 1e-3))
     find = Ascending()
     taken = descend(energy, x, 0.0, find, LineSearch())
-    assert find.asked == (0 if floors else 2)
-    assert (taken.direction.shift, taken.direction.solver_iterations) == ((0.0, 0) if floors else (0.002, 7 + 3 + 3))
+    assert find.asked == 2
+    assert (taken.direction.shift, taken.direction.solver_iterations) == (0.002, 7 + 3 + 3)
     assert energy.value(taken.x) < taken.value

@@ -14,7 +14,7 @@ from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, T
 from tests.core.grids import grid, scrambled
 
 CONFIG = TruncatedNewtonConfig()
-FIRST, SECOND = CONFIG.min_damping, CONFIG.damping_factor * CONFIG.min_damping
+FIRST, SECOND = CONFIG.tightest, CONFIG.damping_factor * CONFIG.tightest
 
 
 class Matrix:

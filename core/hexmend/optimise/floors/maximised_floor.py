@@ -15,6 +15,7 @@ import numpy as np
 from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.energy.barriers.height_barrier import HeightBarrier
+from hexmend.energy.ranks import Ranks
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton
 
@@ -176,25 +177,23 @@ class FloorDirection:
 
     def __init__(self, energy: MaximisedFloor, newton: TruncatedNewton | None = None):
         self._energy, self._newton = energy, newton or TruncatedNewton()
+        self._mixed, self._curvature = np.empty(0), 0.0  # derivatives by the floor, at the last positions
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-        energy = self._energy
         # First, as the matrix lends its memory to gradients afterwards.
-        mixed, curvature = energy.mixed(hessian.x), energy.floor(hessian.x).curvature
-        return self._corrected(self._newton(value, gradient, hessian), gradient, hessian, mixed, curvature)
+        self._mixed, self._curvature = self._energy.mixed(hessian.x), self._energy.floor(hessian.x).curvature
+        return self._corrected(self._newton(value, gradient, hessian), gradient, hessian.energy.ranks)
 
     def damped(self, gradient: np.ndarray, hessian: Hessian) -> SearchDirection | None:
-        """Return the direction at the same points with more damping; see `TruncatedNewton.damped`."""
-        energy = self._energy
-        mixed, curvature = energy.mixed(hessian.x), energy.floor(hessian.x).curvature
+        """Return the direction at the same positions with more damping; see `TruncatedNewton.damped`."""
         found = self._newton.damped(gradient, hessian)
-        return None if found is None else self._corrected(found, gradient, hessian, mixed, curvature)
+        return None if found is None else self._corrected(found, gradient, hessian.energy.ranks)
 
-    def _corrected(self, found, gradient, hessian, mixed, curvature):
-        ranks = hessian.energy.ranks
+    def _corrected(self, found: SearchDirection, gradient: np.ndarray, ranks: Ranks) -> SearchDirection:
+        """Correct the direction without the floor for its change."""
+        mixed, curvature, vector = self._mixed, self._curvature, found.vector
         other, iterations, is_definite = self._newton.solve_again(mixed)
         rest = curvature - ranks.sum(float((mixed * other).sum()))
-        vector = found.vector
         if rest > 0 and is_definite:
             along = ranks.sum(float((mixed * vector).sum()))
             corrected = vector + other * (along / max(rest, 1e-3 * curvature))

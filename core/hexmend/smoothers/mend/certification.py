@@ -19,6 +19,7 @@ from hexmend.optimise.floors.region import Region
 from hexmend.quality import ElementQuality, locked_hexes, measure
 from hexmend.smoothers.mend.floors import FLOORS
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
+from hexmend.smoothers.mend.untangling import PATIENCE
 
 
 @dataclass(frozen=True)
@@ -34,22 +35,17 @@ class CertificationConfig:
         Layers of hexes around the invalid ones whose nodes move.
     band : float
         Width of the barriers above their floors, in scaled Jacobian, q(H), and det J over the greatest in the hex.
-    gap, min_gap : float
-        Of `ValidityBarrier.with_higher_floors`, and the least to which it is halved where the floors no longer rise.
+    gap : float
+        Of `ValidityBarrier.with_higher_floors` at first; it is halved where the floors no longer rise.
     steps : int
         Most Newton steps with one share.
-    window, min_rise : int, float
-        The floors no longer rise where they have risen by less than this in so many steps.
     """
 
     kept_shares: tuple[float, ...] = (0.98, 0.9, 0.5, 0.0)
     rings: int = 2
     band: float = FLOORS.band
     gap: float = 0.25
-    min_gap: float = 0.02
-    steps: int = 60
-    window: int = 5
-    min_rise: float = 1e-3
+    steps: int = PATIENCE
 
 
 CERTIFICATION = CertificationConfig()
@@ -147,13 +143,13 @@ class _Certification:
         barrier = MovableHexes(region.energy).barrier(*self._floors, config.band, config.band, 1.0)
         part, y = region.energy.with_barrier(barrier), region.inside(x)
         validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)
-        direction, gap, history = NEWTON.direction(), config.gap, [validity.deficit]
+        direction, gap = NEWTON.direction(), config.gap
         for number in range(1, most + 1):
             step = descend(_with_term(part, validity), y, 0.0, direction, SEARCH, NEWTON.max_step)
             if step is None or step.alpha == 0:
                 return most, none
+            before = validity.deficit
             y, validity = step.x, validity.with_higher_floors(step.x, gap)
-            history.append(validity.deficit)
             yield self._take(energy.to_mesh_units(region.merged(x, y)), validity)
             invalid = curable_hexes(part.mesh, measure(y, part.mesh.hexes))
             if not invalid.any():
@@ -163,10 +159,8 @@ class _Certification:
             joined &= ~cured
             if joined.any():
                 return number, joined
-            if len(history) > config.window and history[-1 - config.window] - history[-1] < config.min_rise:
-                gap, history = gap / 2, history[-1:]
-                if gap < config.min_gap:
-                    return most, none
+            if not validity.deficit < before:
+                gap /= 2
         return most, none
 
     def _around(self, hexes: np.ndarray) -> np.ndarray:

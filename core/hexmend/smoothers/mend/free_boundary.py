@@ -39,22 +39,21 @@ class ReturnConfig:
         Of the elastic ceilings while hexes are untangled, one after the other until they are.
     reductions : (float, float)
         See `untangling.untangle`: a free boundary follows faster.
-    greatest_slope : float
-        Of the ceilings while the boundary returns.
     steps : int
-        Newton steps of a round of the return.
-    rising : float
-        The ceilings become twice as steep where the least rises by no more than this share of it, or of 0.1.
+        Newton steps of a round of the return, after which the ceilings become twice as steep.
     wider : tuple of float
         Multiples of the tolerances, of which the smallest that is reached counts where none is given.
     """
 
     slopes: tuple[float, ...] = (3.0, 10.0, 30.0, 100.0)
     reductions: tuple[float, float] = (0.8, 0.8)
-    greatest_slope: float = 1000.0
-    steps: int = 3
-    rising: float = 0.05
+    steps: int = 2
     wider: tuple[float, ...] = (1.0, 3.0, 9.0, 20.0)
+
+    @property
+    def greatest_slope(self) -> float:
+        """Slope of the ceilings at which the return ends."""
+        return 10 * self.slopes[-1]
 
 
 RETURN = ReturnConfig()
@@ -242,12 +241,12 @@ class FreeBoundary:
     def _returned(
         self, x: np.ndarray, locked: np.ndarray, slope: float, wider: tuple[float, ...], config: ReturnConfig
     ) -> Generator[Step, None, np.ndarray | None]:
-        """Return within the tolerances while the least rises; the ceilings become steeper where it does not.
+        """Return within the tolerances, which the least may rise in, while the ceilings become steeper.
 
         Of the positions within the smallest multiple of the tolerances that is reached those with the highest least are
         returned; None where none is.
         """
-        fit, last = self.fit.without_diagonals(), -1.0
+        fit = self.fit.without_diagonals()
         best: list[tuple[float, np.ndarray | None]] = [(0.0, None)] * len(wider)
         while slope < config.greatest_slope and not best[0][0] > BARRIER_SAFE:
             maximised = self._maximised(fit.with_weights(slope=slope), locked)
@@ -259,11 +258,10 @@ class FreeBoundary:
                 x = step.x
             yield Step(self.energy.to_mesh_units(x), intermediate=True, infeasible=True)
             least = float(maximised.hexes.corners(x).min(initial=np.inf))
-            rises, last = least > last + config.rising * max(last, 0.1), least
             best = [
                 (least, x) if fit.is_within(x, factor) and least > reached[0] else reached
                 for factor, reached in zip(wider, best, strict=True)
             ]
-            slope *= 1 if rises else 2
+            slope *= 2
         sound = [found for least, found in best if least > BARRIER_SAFE]
         return next((found for found in (*sound, *(found for _, found in best)) if found is not None), None)

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from hexmend.energy import ObjectiveNorm
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.search_direction import TruncatedNewtonConfig
 from hexmend.parameters import AUTO, parameter
-from hexmend.smoothers.base_optimiser import ObjectiveSmoother
+from hexmend.smoothers.base_optimiser import MAX_P, ObjectiveSmoother
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class MendSettings(ObjectiveSmoother):
     p: float = parameter(
         AUTO,
         low=1,
-        high=32,
+        high=MAX_P,
         help="Exponent of the objective (3.3); auto: 1 with goal balanced and no target, else 2.",
         automatic=AUTO,
         advanced=True,
@@ -32,7 +33,7 @@ class MendSettings(ObjectiveSmoother):
     max_p: float = parameter(
         1.0,
         low=1,
-        high=32,
+        high=MAX_P,
         help="p is doubled at the optimum up to this value, for the worst hexes; not with goal balanced.",
         advanced=True,
     )
@@ -50,7 +51,10 @@ class MendSettings(ObjectiveSmoother):
         label="Keep the best result",
     )
     solver_iterations: int = parameter(
-        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step.", advanced=True
+        TruncatedNewtonConfig.iterations,
+        low=1,
+        help="Iteration limit of conjugate gradients for a Newton step.",
+        advanced=True,
     )
 
     @property

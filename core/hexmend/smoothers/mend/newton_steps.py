@@ -29,7 +29,7 @@ class NewtonConfig:
     """
 
     solver_iterations: int = TruncatedNewtonConfig.iterations
-    max_step: float = 1.5
+    max_step: float = 1.0
     deflated: bool = False
 
     def direction(self) -> TruncatedNewton:

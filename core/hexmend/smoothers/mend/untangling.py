@@ -22,7 +22,7 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 #: damped, and so shorter.
 REDUCTIONS = 0.9, 0.975
 #: Greatest delta, in cubes of the mean edge length: beyond it the energy of a flat hex is that of a cube.
-MAX_DELTA = 0.5
+MAX_DELTA = 1.0
 #: Successive steps without fewer inverted hexes after which the stage ends.
 PATIENCE = 40
 
