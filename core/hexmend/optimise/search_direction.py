@@ -182,6 +182,10 @@ class TruncatedNewton:
         self._damping = damping
         return SearchDirection(-solved.x.reshape(-1, 3), count, damping)
 
+    def shortened(self) -> None:
+        """Damp the next direction more: the line search has shortened the step along this one."""
+        self._damping = max(self._damping, self._increased(self._used_damping))
+
     def _solve_definite(
         self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float
     ) -> tuple[CGResult, float, int]:

@@ -189,6 +189,10 @@ class FloorDirection:
         found = self._newton.damped(gradient, hessian)
         return None if found is None else self._corrected(found, gradient, hessian.energy.ranks)
 
+    def shortened(self) -> None:
+        """See `TruncatedNewton.shortened`."""
+        self._newton.shortened()
+
     def _corrected(self, found: SearchDirection, gradient: np.ndarray, ranks: Ranks) -> SearchDirection:
         """Correct the direction without the floor for its change."""
         mixed, curvature, vector = self._mixed, self._curvature, found.vector

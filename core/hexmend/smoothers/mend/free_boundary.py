@@ -40,14 +40,14 @@ class ReturnConfig:
     reductions : (float, float)
         See `untangling.untangle`: a free boundary follows faster.
     steps : int
-        Newton steps of a round of the return, after which the ceilings become twice as steep.
+        Most Newton steps of a round of the return, after which the ceilings become twice as steep.
     wider : tuple of float
         Multiples of the tolerances, of which the smallest that is reached counts where none is given.
     """
 
     slopes: tuple[float, ...] = (3.0, 10.0, 30.0, 100.0)
     reductions: tuple[float, float] = (0.8, 0.8)
-    steps: int = 2
+    steps: int = FLOORS.steps
     wider: tuple[float, ...] = (1.0, 3.0, 9.0, 20.0)
 
     @property
