@@ -92,8 +92,8 @@ def test_it_ends_where_enough_is_reached(seed):
 
 
 def test_nodes_far_from_the_lowest_hexes_stay():
-    lattice = grid(10)
-    far = np.abs(lattice.points - 5).max(axis=1)
+    lattice = grid(14)
+    far = np.abs(lattice.points - 7).max(axis=1)
     points = wavy(lattice, 0.01).points.copy()
     points[far == 0] += [0.4, 0.3, 0.2]
     floors = floors_of(lattice.with_points(points))
@@ -103,7 +103,7 @@ def test_nodes_far_from_the_lowest_hexes_stay():
     list(floors.relax(0.7, 0.5))
     has_moved = np.abs(floors.points - points).max(axis=1) > 1e-12
     assert has_moved[far == 0].all()
-    assert far[has_moved].max() <= FLOORS.rings + 1
+    assert far[has_moved].max() <= FLOORS.rings + 2  # the hexes around the lowest ones come near the floor too
     now, near = measure(floors.points, lattice.hexes), (far[lattice.hexes] <= FLOORS.rings).all(axis=1)
     np.testing.assert_allclose(floors.values.jacobians[near], now.scaled_jacobian[near], rtol=1e-12)
     np.testing.assert_allclose(floors.values.qualities[near], now.q[near], rtol=1e-12)
