@@ -272,7 +272,9 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
 
 
 def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
-    """Return True if every hex is a cube but for rounding: gradient and Hessian are noise then."""
+    """Return True if every hex is a cube but for rounding, and no floor: gradient and Hessian are noise then."""
+    if energy.barrier is not None:
+        return False
     eta = len(CORNER_TETRAHEDRA) * np.finfo(float).eps  # of each corner
     # Softened, a hex may have less energy than a cube.
     highest = energy.norm.contribution(eta) if delta == 0 else eta**energy.norm.p

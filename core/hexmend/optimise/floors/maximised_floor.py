@@ -19,9 +19,6 @@ from hexmend.energy.ranks import Ranks
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.search_direction import SearchDirection, TruncatedNewton
 
-#: Floor that is never reached: heights are in units of the least.
-_HIGHEST = 8.0
-
 
 class Floor(NamedTuple):
     """The floor t that minimises at some positions, its value with the reward, and the second derivative by t."""
@@ -143,8 +140,7 @@ class MaximisedFloor:
                 self.hexes.barrier(-np.inf, reward.quality_floor, reward.band, reward.band, reward.weight)
             )
         value = rest.value(x, delta)
-        # Positive for any floor below `_HIGHEST`: an energy that is not counts as perfect.
-        return value + floor.value + _HIGHEST * reward.reward if np.isfinite(value) else np.inf
+        return value + floor.value if np.isfinite(value) else np.inf
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient at positions x (n, 3); t is at its minimum, so that its change does not count."""

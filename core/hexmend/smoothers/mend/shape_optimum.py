@@ -14,8 +14,8 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 #: Fall of the objective in so many steps, as a share of it, below which they are the last: of a stage that another one
 #: follows, with one p before the next, and where steps are limited: on a faceted surface they go from facet to facet.
 NEGLIGIBLE_FALL, STEPS = 2e-3, 4
-#: Slope, as a share of the energy, up to which it counts as zero.
-ROUNDING = 1e-10
+#: Slope, as a share of the energy, up to which it counts as zero (Dennis and Schnabel 1983).
+ROUNDING = float(np.cbrt(np.finfo(float).eps) ** 2)
 
 
 @dataclass(frozen=True, eq=False)
