@@ -167,7 +167,7 @@ def _search(
 
 def _is_poor(taken: Descent | None) -> bool:
     """Return True if there is no step, or the step is short although the energy falls along it."""
-    return taken is None or (taken.alpha < DESCENT.short and -taken.slope > NEGLIGIBLE * taken.value)
+    return taken is None or (taken.alpha < DESCENT.short and -taken.slope > NEGLIGIBLE * abs(taken.value))
 
 
 def _lower(energy: MeshEnergy, delta: float, one: Descent | None, other: Descent | None) -> Descent | None:
@@ -182,8 +182,7 @@ def _damped(
 ) -> SearchDirection | None:
     """Return a direction that is damped more than the last.
 
-    None with a barrier for inverted hexes (delta > 0), with floors and where nodes slide: there other limits shorten
-    the step, and steepest descent follows.
+    None with a barrier for inverted hexes (delta > 0) and for other methods than Newton's: steepest descent follows.
     """
     damped = getattr(direction, "damped", None)
     return None if delta > 0 or damped is None else damped(gradient, hessian)

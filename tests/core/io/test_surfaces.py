@@ -1,5 +1,7 @@
 """Surfaces from files that other programs write, and what is said of those that hold none."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -79,6 +81,7 @@ WRITERS = {
     "text.stl": in_text,
     "blank-lines.stl": edited(in_text, lambda text: text.replace("facet n", "\n  facet n") + "\n\n"),
     "capitals.stl": edited(in_text, str.upper),
+    "no-normals.stl": edited(in_text, lambda text: re.sub("facet normal.*", "facet", text)),
     "returns.stl": edited(in_text, lambda text: text.replace("\n", "\r")),
     "notes.stl": edited(in_text, lambda text: text.replace("\n", " note\n")),
     "tabs.stl": edited(in_text, lambda text: text.replace("vertex ", "\tvertex\t ")),

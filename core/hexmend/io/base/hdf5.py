@@ -30,6 +30,8 @@ _ONE_FILE = "Write all data into one file with the program that made it (links: 
 _WRONG_KIND = TypeError, AttributeError, OverflowError
 _FAILURES = OSError, RuntimeError, ValueError, LookupError, *_WRONG_KIND
 
+#: Bytes of all names of groups and arrays at most, as paths.
+_MOST_NAMES = 1 << 28
 #: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
 _LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
 
@@ -107,15 +109,25 @@ def _check_self_contained(path: Path, file: object) -> None:
     Soft links stay inside the file. A virtual dataset is refused even if its sources lie in the same file: no writer
     of these formats makes one, and a dataset that refers to itself crashes the library.
     """
-    problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(file)), "")
+    problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(path, file)), "")
     if problem:
         raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
 
 
-def _external_links(file: object) -> Iterator[tuple[bytes, str]]:
+def _external_links(path: Path, file: object) -> Iterator[tuple[bytes, str]]:
     """Yield the names of links that refer to another file, and how they do."""
     links: list[tuple[bytes, int]] = []  # without calls of the library, whose errors would be lost in its own call
-    file.id.links.visit(lambda name, link: links.append((name, link.type)), info=True)
+    left = _MOST_NAMES
+
+    def keep(name: bytes, link: object) -> bool | None:
+        nonlocal left
+        left -= len(name)
+        links.append((name, link.type))
+        return True if left < 0 else None
+
+    if file.id.links.visit(keep, info=True):
+        problem = f"the names of its groups and arrays take more than {_MOST_NAMES >> 20} MB"
+        raise FileError(path, problem, "Write it with fewer levels of groups.")
     for name, kind in links:
         if problem := _external(file.id, name, kind):
             yield name, problem

@@ -1,6 +1,6 @@
 """Coordinates as decimals in a text file: the byte range of each, and their replacement.
 
-Texts of coordinates in the style of the file: shortest decimals, or mantissa and exponent.
+Texts of coordinates are the shortest decimals.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from hexmend.io.surfaces.format import Polygons, parse_surface
 #: Bytes before the triangles of a binary file.
 _HEADER = 84
 #: Beginning of a facet, or a vertex with its three numbers, at the begin of a line.
-_LINE = re.compile(rb"^[ \t]*(?:facet[ \t]|vertex(?:[ \t]+(\S+[ \t]+\S+[ \t]+\S+))?)", re.MULTILINE)
+_LINE = re.compile(rb"^[ \t\v\f]*(?:facet(?!\S)|vertex(?:[ \t\v\f]+(\S+[ \t\v\f]+\S+[ \t\v\f]+\S+))?)", re.MULTILINE)
 #: A triangle of a binary file.
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 

@@ -112,8 +112,8 @@ class MaximisedFloor:
                 weight / band**2 * ranks.sum(float((1 / y**2 - 1).sum())),
             )
 
-        low, high = least - band * (1 - 1e-9), least - 1e-12
-        t = max(low, least - self._reward.gap)
+        low, high = least - band * (1 - 1e-9), float(np.nextafter(least, -np.inf))
+        t = min(max(low, least - self._reward.gap), high)
         value, slope, curvature = terms(t)
         while low < t < high and slope != 0:  # Newton's method, or bisection, until the next number is the same
             low, high = (low, t) if slope > 0 else (t, high)

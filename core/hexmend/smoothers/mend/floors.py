@@ -128,7 +128,7 @@ class Floors:
         gap = config.accuracy * config.first_gap
         maximised = MaximisedFloor(self.energy, Reward(config.weight / gap, config.weight, config.band), self._hexes)
         hexes, nodes, shares = maximised.multipliers(self.values.x)
-        heavy = np.flatnonzero(shares * shares.size > shares.sum())  # more than the mean
+        heavy = np.flatnonzero((shares > 0) & (2 * shares >= shares.max(initial=0.0)))
         heavy = heavy[np.argsort(-shares[heavy], kind="stable")]
         return ActiveSet(hexes[heavy], nodes[heavy], self._hexes.locked_below(self.values.x, self.values.jacobian))
 

@@ -37,6 +37,8 @@ SPOILT = {
         ("GRID,2,,", "\0", "holds bytes that are not text"),
         ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
         ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
+        ("GRID,2,,1.0", "GRID,2,,1_0", "GRID in line 3 holds '1_0': expected a number"),
+        ("GRID,2,,1.0", f"GRID,2,,1.{'0' * 80}", "expected a number"),
         ("GRID,2,", "GRID,1,", "node 1 is given twice"),
         (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
         (",7,8\n", ",7,77\n", "node 77 is used"),

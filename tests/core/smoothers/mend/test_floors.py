@@ -91,6 +91,17 @@ def test_it_ends_where_enough_is_reached(seed):
     assert len(few) < len(steps)
 
 
+@pytest.mark.parametrize("shift", [[0.0, 0.0, 0.0], [0.3, 0.1, -0.2], [0.3, 0.3, 0.3]])
+def test_corners_that_hold_the_floor_are_found_whether_one_or_all_are_equal(shift):
+    lattice = grid(2)
+    points = lattice.points.copy()
+    points[lattice.free] += shift
+    floors = floors_of(lattice.with_points(points))
+    active, quality = floors.active_set(), measure(points, lattice.hexes)
+    assert len(active.hexes) == (1 if any(shift) else 32)
+    assert quality.scaled_jacobian[active.hexes] == pytest.approx(floors.values.jacobian, rel=1e-12)
+
+
 def test_nodes_far_from_the_lowest_hexes_stay():
     lattice = grid(14)
     far = np.abs(lattice.points - 7).max(axis=1)

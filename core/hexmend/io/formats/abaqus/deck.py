@@ -1,6 +1,6 @@
 """Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow.
 
-Files of an Abaqus deck, and their parts in the text that joins them.
+Files of an Abaqus deck, and the byte ranges of their cards.
 """
 
 from __future__ import annotations
@@ -223,12 +223,14 @@ def _node_fields(data: bytes, begin: int, end: int) -> TextFields:
 
 def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Ranges without blanks at their ends."""
-    begin, end = begin.copy(), end.copy()
-    while (blank := (begin < end) & (letters[np.minimum(begin, len(letters) - 1)] <= ord(" "))).any():
-        begin += blank
-    while (blank := (begin < end) & (letters[end - 1] <= ord(" "))).any():
-        end -= blank
-    return begin, end
+    shape, begin, end = begin.shape, begin.ravel().copy(), end.ravel().copy()
+    for bound, ahead, step in (begin, 0, 1), (end, -1, -1):
+        rows = np.arange(bound.size)  # those that may begin or end with a blank
+        while rows.size:
+            rows = rows[begin[rows] < end[rows]]
+            rows = rows[letters[bound[rows] + ahead] <= ord(" ")]
+            bound[rows] += step
+    return begin.reshape(shape), end.reshape(shape)
 
 
 def _split_keyword(head: str) -> tuple[str, dict[str, str]]:

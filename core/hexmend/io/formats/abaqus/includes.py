@@ -57,13 +57,13 @@ class _Opener:
         self.root, self._n_files = root, 0
 
     def add_cards(self, file: Deck, before: Card | None) -> Card | None:
-        """Add the cards of a file; data lines at its begin continue the card `before`. Returns the last to go on."""
+        """Add the cards of a file; data lines at its begin continue the card `before`. Returns the last."""
         cards = list(file.own_cards())
         before = self._continue(before, file, 0, cards[0].at if cards else len(file.data))
         for card in cards:
             if card.name != "INCLUDE":
                 self.root.cards.append(card)
-                before = card if card.name in _INCLUDING else None
+                before = card
             if card.name in _INCLUDING and "INPUT" in card.options:
                 included = self._open(file, card)
                 file.included.append(included)
@@ -73,10 +73,20 @@ class _Opener:
         return before
 
     def _continue(self, card: Card | None, file: Deck, begin: int, end: int) -> Card | None:
-        """Add data lines of a file that go on after those of a card elsewhere."""
-        if card is not None and file.data[begin:end].strip():
-            self.root.cards.append(replace(card, deck=file, begin=begin, end=end, at=begin))
-        return card
+        """Add data lines of a file that go on after those of a card elsewhere; returns the last part of the card.
+
+        Those of keywords that are not read are left out.
+        """
+        if card is None or not file.data[begin:end].strip() or card.name not in (*_INCLUDING, "INSTANCE"):
+            return card
+        is_cut = card.name == "ELEMENT" and card.deck.data[card.begin : card.end].rstrip().endswith(b",")
+        if is_cut or card.name == "INSTANCE":
+            own = "a line of its data continues" if is_cut else "its data lines are"
+            problem = f"*{card.name} in {card.place}: {own} elsewhere, in {file.path.name} where that is included"
+            raise FileError(self.root.path, problem, f"Write these lines where *{card.name} is.")
+        part = replace(card, deck=file, begin=begin, end=end, at=begin)
+        self.root.cards.append(part)
+        return part
 
     def _open(self, file: Deck, card: Card) -> Deck:
         parents = [one.path.resolve() for one in file.lineage()]

@@ -19,6 +19,8 @@ from hexmend.io.base.cursor import quoted
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
+#: Letters of a field between commas that are kept: a number has fewer.
+_LONGEST = 64
 #: Columns of a line: name, fields, and the name of the line that continues it.
 _COLUMNS = 80
 #: True for bytes by which fields are not in fixed columns: tabs, commas, comments, other control codes and encodings.
@@ -74,7 +76,7 @@ class Cards:
         fields = self.fields(first, last)
         fields = np.where(fields == b"", b"0", fields)
         try:
-            if b"_" not in fields.tobytes():  # which Python allows in numbers
+            if b"_" not in fields.tobytes() and not (np.strings.str_len(fields) >= _LONGEST).any():  # Python allows _
                 return fields.astype(dtype)
         except (ValueError, OverflowError):
             pass
@@ -90,6 +92,8 @@ class Cards:
     def _real(self, word: str, at: int) -> float:
         found = _EXPONENT.fullmatch(word)
         try:
+            if "_" in word or len(word) >= _LONGEST:
+                raise ValueError(word)
             return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
         except ValueError:
             raise self.error(at, f"holds {quoted(word)}: expected a number") from None
@@ -197,15 +201,11 @@ def _with_rows(texts: np.ndarray, rows: np.ndarray, new: list) -> np.ndarray:
     return texts
 
 
-def _continuation_names(texts: np.ndarray) -> np.ndarray:
-    return np.strings.replace(np.strings.lstrip(texts, b"+*"), b" ", b"")
-
-
 def _split(line: bytes) -> tuple[bytes, bytes, list[bytes]]:
     """Cut a line into its name, the name of the line that continues it, and the fields of its format."""
     line = line.partition(b"$")[0]
     if b"," in line:
-        parts = [part.strip() for part in line.split(b",")]
+        parts = [part.strip()[:_LONGEST] for part in line.split(b",")]
         head = parts[0].upper()
         return head, b"", parts[1 : 5 if head.startswith(b"*") or head.endswith(b"*") else 9]
     line = line.expandtabs(8)

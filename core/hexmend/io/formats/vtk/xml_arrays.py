@@ -12,6 +12,7 @@ from __future__ import annotations
 import binascii
 import zlib
 from collections.abc import Callable
+from itertools import accumulate
 
 import numpy as np
 
@@ -184,10 +185,10 @@ class _StoredArray:
     def _decompress(self, low: int, high: int) -> np.ndarray:
         blocks, whole = len(self._packed), self._whole
         first, end = low // whole, (high - 1) // whole + 1
-        begins = np.concatenate([[0], np.cumsum(self._packed, dtype=np.int64)]).tolist()
+        begins = [0, *accumulate(self._packed)]
         place = self._stored((3 + blocks) * self._word.itemsize)
         data = memoryview(self._take(place + begins[first], begins[end] - begins[first]))
-        answer = np.empty(whole * (end - first), np.uint8)
+        answer = np.empty(min(whole * end, self.length) - whole * first, np.uint8)
 
         def unpack(k: int) -> None:
             block = data[begins[k] - begins[first] : begins[k + 1] - begins[first]]
