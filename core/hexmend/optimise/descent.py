@@ -15,6 +15,7 @@ from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.search_direction import (
     NEGLIGIBLE,
+    DampedDirection,
     DirectionMethod,
     SearchDirection,
     TruncatedNewtonConfig,
@@ -184,8 +185,7 @@ def _damped(
 
     None with a barrier for inverted hexes (delta > 0) and for other methods than Newton's: steepest descent follows.
     """
-    damped = getattr(direction, "damped", None)
-    return None if delta > 0 or damped is None else damped(gradient, hessian)
+    return direction.damped(gradient, hessian) if delta == 0 and isinstance(direction, DampedDirection) else None
 
 
 class _Line:

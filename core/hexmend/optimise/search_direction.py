@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -43,6 +43,17 @@ class DirectionMethod(Protocol):
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         """Find the direction from value, gradient (k, 3) and Hessian."""
+
+
+@runtime_checkable
+class DampedDirection(DirectionMethod, Protocol):
+    """Direction of a matrix whose diagonal can be increased, as in `TruncatedNewton`."""
+
+    def damped(self, gradient: np.ndarray, hessian: Hessian) -> SearchDirection | None:
+        """Find the direction at the same points with more damping; None where that is of no use."""
+
+    def shortened(self) -> None:
+        """Damp the next direction more: the line search has shortened the step along this one."""
 
 
 def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:

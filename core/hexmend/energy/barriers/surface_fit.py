@@ -188,10 +188,7 @@ class SurfaceFit:
     def exceeding(self, x: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Mark nodes of samples that are beyond their tolerance at x (n, 3), and were not as far before, (n,) bool."""
         was, result = self.distances(before), self.result(x)
-        bad = result.distances > np.maximum(self.tolerances, was)
-        marks = np.zeros(self.n, dtype=bool)
-        marks[result.nodes[bad][result.weights[bad] > 0]] = True
-        return marks
+        return self._nodes_of(result.distances > np.maximum(self.tolerances, was), result)
 
     def with_weights(self, weight: float = 0.0, slope: float = 0.0, tolerances: np.ndarray | None = None) -> SurfaceFit:
         """Return the fit with another weight of the barrier, slope of the ceiling, and tolerances (s + t,)."""
@@ -231,7 +228,7 @@ class SurfaceFit:
         """Compare at positions x (n, 3) of the nodes, which are not changed in place between calls."""
         result = self._known_result(x)
         if result is None:
-            result = self._compare(x, self._rows)
+            result = self._compare(x)
             self._results[:] = [(x, result), *self._results[:1]]
         return result
 
@@ -239,19 +236,15 @@ class SurfaceFit:
         """Return the comparison at positions x (n, 3) if it is one of the last two."""
         return next((result for known, result in self._results if known is x or np.array_equal(known, x)), None)
 
-    def _compare(self, x: np.ndarray, rows: np.ndarray, refits: bool = True) -> FitResult:
-        """Compare some rows (k,) int32 at positions x (n, 3), of the boundary alone without a refit of its trees.
-
-        Others count as on the surface.
-        """
+    def _compare(self, x: np.ndarray) -> FitResult:
+        """Compare the samples near the part that moves at positions x (n, 3); others count as on the surface."""
         count = len(self.tolerances)
         shapes = (count,), (count, 3), (count, 3), (count, 4), (count, 4)
         result = FitResult(*(np.zeros(shape, np.int32 if k == 3 else np.float64) for k, shape in enumerate(shapes)))
         vertices, trees = vertices_of(self._all(x), self._faces), self._moving
-        if refits:
-            closest_point.refit(vertices, trees.pieces, trees.links, self._boxes)
+        closest_point.refit(vertices, trees.pieces, trees.links, self._boxes)
         moving = closest_point.BoxTrees(vertices, trees.pieces, self._boxes, trees.links)
-        kernels.distances(self._kernel, moving, rows, self._known, *result)
+        kernels.distances(self._kernel, moving, self._rows, self._known, *result)
         return result
 
     def distances(self, x: np.ndarray) -> np.ndarray:
@@ -304,7 +297,8 @@ class SurfaceFit:
         limit = before.distances + _USED * np.maximum(self.tolerances - before.distances, 0.0)
         known = self._known_result(there)
         if known is not None:
-            return self._marked(known.distances > limit, before)
+            bad = known.distances > limit
+            return self._of_part(self._nodes_of(bad, before)) if bad.any() else None
         shift = np.zeros((self.n, 3))
         shift[slice(None) if self._part is None else self._part[0]] = there - x
         lengths = np.linalg.norm(shift, axis=1)
@@ -317,15 +311,11 @@ class SurfaceFit:
         along = (moved * before.directions[rows]).sum(axis=1)
         across = np.sqrt(np.maximum((moved**2).sum(axis=1) - along**2, 0.0))
         bad[rows] = np.where(self._of_line[rows], across, np.abs(along)) > limit[rows]
-        return self._marked(bad, before)
+        return self._of_part(self._nodes_of(bad, before)) if bad.any() else None
 
-    def _marked(self, bad: np.ndarray, result: FitResult) -> np.ndarray | None:
-        """Mark the nodes of some samples (s + t,) bool; None where there is none."""
-        if not bad.any():
-            return None
-        marks = np.zeros(self.n, dtype=bool)
-        marks[result.nodes[bad][result.weights[bad] > 0]] = True
-        return self._of_part(marks)
+    def _nodes_of(self, samples: np.ndarray, result: FitResult) -> np.ndarray:
+        """Mark the nodes of some samples (s + t,) bool, (n,) bool."""
+        return mask(result.nodes[samples][result.weights[samples] > 0], self.n)
 
     def _costs(self, d: np.ndarray) -> Costs:
         """Costs of distances (s + t,); those of the last ones are known."""

@@ -20,7 +20,7 @@ from hexmend.optimise.descent import DESCENT, Descent, descend
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
-from hexmend.optimise.search_direction import TruncatedNewton
+from hexmend.optimise.search_direction import DampedDirection, TruncatedNewton
 from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
 
 
@@ -242,9 +242,7 @@ class Floors:
         self._take(region, hexes, x)
         return maximised.floor(x).t, is_centred
 
-    def _descend(
-        self, energy: MeshEnergy, x: np.ndarray, direction: TruncatedNewton | FloorDirection
-    ) -> Descent | None:
+    def _descend(self, energy: MeshEnergy, x: np.ndarray, direction: DampedDirection) -> Descent | None:
         """Take a step; None where there is none, or a short one: nodes are as centred as they can be."""
         step = descend(energy, x, 0.0, direction, SEARCH, NEWTON.max_step)
         if step is None or step.alpha < DESCENT.short:

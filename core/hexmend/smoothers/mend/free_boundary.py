@@ -36,7 +36,8 @@ class ReturnConfig:
     Parameters
     ----------
     slopes : tuple of float
-        Of the elastic ceilings while hexes are untangled, one after the other until they are.
+        Of the elastic ceilings while hexes are untangled, one after the other until they are; the last is the slope at
+        which the return ends.
     reductions : (float, float)
         See `untangling.untangle`: a free boundary follows faster.
     steps : int
@@ -45,15 +46,10 @@ class ReturnConfig:
         Multiples of the tolerances, of which the smallest that is reached counts where none is given.
     """
 
-    slopes: tuple[float, ...] = (3.0, 10.0, 30.0, 100.0)
+    slopes: tuple[float, ...] = (3.0, 10.0, 30.0, 100.0, 1000.0)
     reductions: tuple[float, float] = (0.8, 0.8)
     steps: int = FLOORS.steps
     wider: tuple[float, ...] = (1.0, 3.0, 9.0, 20.0)
-
-    @property
-    def greatest_slope(self) -> float:
-        """Slope of the ceilings at which the return ends."""
-        return 10 * self.slopes[-1]
 
 
 RETURN = ReturnConfig()
@@ -225,7 +221,7 @@ class FreeBoundary:
             True if no hex is inverted, within the tolerances or wider ones.
         """
         start = self.mesh.with_points(points)
-        for slope in config.slopes:
+        for slope in config.slopes[:-1]:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
             steps = untangle(start, shape, locked, epsilon, NEWTON, config.reductions)
@@ -248,7 +244,7 @@ class FreeBoundary:
         """
         fit = self.fit.without_diagonals()
         best: list[tuple[float, np.ndarray | None]] = [(0.0, None)] * len(wider)
-        while slope < config.greatest_slope and not best[0][0] > BARRIER_SAFE:
+        while slope < config.slopes[-1] and not best[0][0] > BARRIER_SAFE:
             maximised = self._maximised(fit.with_weights(slope=slope), locked)
             direction = FloorDirection(maximised)
             for _ in range(config.steps):
