@@ -72,8 +72,8 @@ class CoarseProblem:
 def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
     """Recognise the coarse mesh of a uniform refinement, with its energy.
 
-    None for other meshes, and for what a coarse mesh cannot have: a target of hexes, nodes that are tied to others, and
-    a part of a mesh that is divided among processes.
+    None for other meshes, and for what a coarse mesh cannot have: a target of hexes, nodes that are tied to others or
+    slide on a curved surface, and a part of a mesh that is divided among processes.
 
     Parameters
     ----------
@@ -83,6 +83,8 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
     """
     motion = energy.mesh.linear_motion
     tied = motion is not None and motion.tied.size > 0
+    if energy.motion.projected.size or energy.surface is not None:
+        return None
     if energy.ranks is not ONE_RANK or mesh.element_target is not None or tied:
         return None
     refinement = find_refinement(mesh.topology)
