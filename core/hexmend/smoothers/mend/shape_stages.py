@@ -71,7 +71,7 @@ class ShapeStages:
         return (yield from untangle(mesh, energy.without_size(), locked, settings.initial_epsilon, newton))
 
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
-        """Go from points (n, 3), or a coarse optimum, to the optimum of shape, without corners that are inverted there."""
+        """Go from points (n, 3), or a coarse optimum, to the optimum of shape without inverted corners there."""
         points = yield from nested_start(energy.mesh.with_points(points), energy, self.coarse_shape, self._nested)
         inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         energy = energy.with_objective(energy.norm, inverted)
