@@ -95,6 +95,9 @@ class TruncatedNewtonConfig:
     deflated : bool
         Deflate solutions by translations of aggregates of nodes: best where many iterations are needed. More than the
         smallest damping shortens long waves, so that a few iterations are enough: such solutions are not deflated.
+    definite : bool
+        Damp until the matrix is positive definite, as solutions for other right-hand sides need it to be. Otherwise
+        conjugate gradients end at a direction of negative curvature, and their iterate is taken (Steihaug 1983).
     """
 
     iterations: int = 200
@@ -103,6 +106,7 @@ class TruncatedNewtonConfig:
     max_damping_increases: int = 6
     damping_factor: float = 4.0
     deflated: bool = False
+    definite: bool = True
 
 
 class TruncatedNewton:
@@ -200,13 +204,16 @@ class TruncatedNewton:
     def _solve_definite(
         self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float
     ) -> tuple[CGResult, float, int]:
-        """Solve with a damping, increased until the matrix is positive definite.
+        """Solve with a damping, increased until the matrix is positive definite, or else there is an iterate.
 
         Returns the solution, the damping, and the number of iterations of all solutions.
         """
+        config = self.config
         solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
         count = solved.iterations
-        while solved.negative_curvature and self._increases < self.config.max_damping_increases:
+        while solved.negative_curvature and self._increases < config.max_damping_increases:
+            if solved.iterations > 1 and not config.definite:
+                break
             damping, self._increases = self._increased(damping), self._increases + 1
             del solved  # large meshes have no memory for two solutions
             solved = self._solve(matrix, gradient.ravel(), tolerance, damping)

@@ -34,7 +34,8 @@ class NewtonConfig:
 
     def direction(self) -> TruncatedNewton:
         """Make the direction for one sequence of steps; it adapts from step to step."""
-        return TruncatedNewton(TruncatedNewtonConfig(self.solver_iterations, deflated=self.deflated))
+        config = TruncatedNewtonConfig(self.solver_iterations, deflated=self.deflated, definite=False)
+        return TruncatedNewton(config)
 
     def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, direction: TruncatedNewton) -> Descent | None:
         """Take a step from x (n, 3), in mean edge lengths; None where the energy is infinite there."""
