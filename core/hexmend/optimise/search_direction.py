@@ -60,9 +60,10 @@ def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> Se
     """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum.
 
     With a target the gradient is that in the lengths at each node: a layer is thinner than steps elsewhere are long.
+    A value that the reward of a floor makes negative has no root: its own gradient is taken.
     """
     p, lengths = hessian.energy.norm.p, hessian.energy.node_lengths
-    step = -(value ** (1 / p - 1) / p) * gradient  # (C.2)
+    step = -(value ** (1 / p - 1) / p if value > 0 else 1.0) * gradient  # (C.2)
     return SearchDirection(step if lengths is None else np.square(lengths) * step)
 
 

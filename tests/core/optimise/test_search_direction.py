@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse.linalg
 from scipy.sparse.linalg import ArpackNoConvergence
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.ranks import ONE_RANK
 from hexmend.optimise import search_direction
 from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, TruncatedNewtonConfig
@@ -20,8 +20,9 @@ FIRST, SECOND = CONFIG.tightest, CONFIG.damping_factor * CONFIG.tightest
 class Matrix:
     """Records what it is asked to solve; says that the curvature is negative while the damping is below `needed`."""
 
-    def __init__(self, needed=0.0):
+    def __init__(self, needed=0.0, iterations=3):
         self.needed, self.asked, self.assemblies, self.has_lent_memory = needed, [], 0, False
+        self.iterations = iterations
         self.energy = SimpleNamespace(ranks=ONE_RANK)
 
     def assembled(self, reuse=None):
@@ -31,7 +32,7 @@ class Matrix:
     def solve(self, right, tolerance, iterations, damping, deflated):
         self.deflated = deflated
         self.asked.append((right.copy(), tolerance, iterations, damping))
-        return SimpleNamespace(x=right / 2, iterations=3, negative_curvature=damping < self.needed)
+        return SimpleNamespace(x=right / 2, iterations=self.iterations, negative_curvature=damping < self.needed)
 
     def lend_memory(self):
         pass
@@ -60,6 +61,21 @@ def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
     for _ in range(3):
         find(1.0, np.ones((1, 3)), matrix)
     assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_factor, 0.0]
+
+
+@pytest.mark.parametrize(("iterations", "asked"), [(1, [0.0, FIRST, SECOND]), (2, [0.0])])
+def test_an_iterate_is_taken_at_negative_curvature_where_the_matrix_need_not_be_definite(iterations, asked):
+    find, matrix = TruncatedNewton(TruncatedNewtonConfig(definite=False)), Matrix(SECOND, iterations)
+    found = find(1.0, np.ones((1, 3)), matrix)
+    assert [damping for *_, damping in matrix.asked] == asked
+    assert found.vector.tolist() == [[-0.5, -0.5, -0.5]]
+
+
+@pytest.mark.parametrize("value", [-5.0, 0.0])
+def test_steepest_descent_of_a_value_without_a_root_follows_the_gradient(value):
+    hessian = SimpleNamespace(energy=SimpleNamespace(norm=ObjectiveNorm(2.0), node_lengths=None))
+    found = search_direction.steepest_descent(value, np.array([[1.0, -2.0, 0.5]]), hessian)
+    assert found.vector.tolist() == [[-1.0, 2.0, -0.5]]
 
 
 class Shifted:
