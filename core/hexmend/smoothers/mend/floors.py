@@ -6,7 +6,7 @@ parameter of an interior point method does; the weight of the barrier stays.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -152,7 +152,7 @@ class Floors:
     def rise(self, quality_floor: float = -np.inf, enough: float = np.inf) -> Generator[Step, None, None]:
         """Raise the minimum scaled Jacobian above a floor of q(H), to which q(H) rises first where it is lower.
 
-        It may be lower for some rounds; it ends where it was highest.
+        It may be lower for some steps; it ends where it was highest.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class Floors:
         Yields
         ------
         Step
-            After each round.
+            After each Newton step.
         """
         best = self.values
         if not best.jacobian < np.inf:  # no corner can be moved
@@ -176,7 +176,7 @@ class Floors:
             self.values = best
             yield self._step()
 
-    def _rounds(self, quality_floor: float, enough: float) -> Iterator[Step]:
+    def _rounds(self, quality_floor: float, enough: float) -> Generator[Step, None, None]:
         """Centre the nodes with one reward after the other; see `rise`."""
         config, least, t = self._config, self.values.jacobian, -np.inf
         while True:
@@ -184,8 +184,7 @@ class Floors:
             floor = min(quality_floor, self.values.quality - gap)
             reward = Reward(self.reward, config.weight, config.band, floor)
             least_before, t_before, small = least, t, config.accuracy * max(least, 0.1)
-            t, is_centred = self._centre(reward, enough)
-            yield self._step(gap=gap)
+            t, is_centred = yield from self._centre(reward, enough)
             least = self.values.jacobian
             if least >= enough and self.values.quality >= quality_floor:
                 return
@@ -212,12 +211,12 @@ class Floors:
             if step is None:
                 break
             x = step.x
+            self._take(region, hexes, x)
+            yield self._step()
             if -step.slope < config.centred * config.relax_weight:
                 break
-        self._take(region, hexes, x)
-        yield self._step()
 
-    def _centre(self, reward: Reward, enough: float) -> tuple[float, bool]:
+    def _centre(self, reward: Reward, enough: float) -> Generator[Step, None, tuple[float, bool]]:
         """Minimise with one reward, around the floor, until the least has reached `enough`.
 
         Returns the floor, and whether nodes are centred.
@@ -234,12 +233,13 @@ class Floors:
             step = self._descend(maximised.as_energy, x, direction)
             fall = 0.0 if step is None else step.value - maximised.value(step.x)
             is_centred = fall < config.centred * config.weight and (step is None or step.backtracks == 0)
-            x = x if step is None else step.x
-            if is_centred:
+            if step is None:
                 break
-            if enough < np.inf and Values(energy.ranks, x, hexes.jacobians(x), hexes.qualities(x)).jacobian >= enough:
+            x = step.x
+            self._take(region, hexes, x)
+            yield self._step(gap=reward.gap)
+            if is_centred or self.values.jacobian >= enough:
                 break
-        self._take(region, hexes, x)
         return maximised.floor(x).t, is_centred
 
     def _descend(self, energy: MeshEnergy, x: np.ndarray, direction: DampedDirection) -> Descent | None:

@@ -26,7 +26,7 @@ class Mend(MendSettings):
     title = "Mend"
     help = "Untangles as far as the fixed nodes allow, then finds the best shape that lowers no key figure."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
-    iteration_limit = 1000
+    iteration_limit = 5000
     bytes_per_hex = 1200
     keeps_linear_motion = True
 
