@@ -284,7 +284,7 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
 def test_a_mend_cut_short_while_its_results_do_not_count_is_begun_again():
     mesh = slid(ball(3), 0.6, seed=0)
     result = smooth(
-        mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=80)
+        mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=160)
     )
     advice = advise(result)
     assert result.kept < result.iterations
@@ -292,7 +292,7 @@ def test_a_mend_cut_short_while_its_results_do_not_count_is_begun_again():
     longer = next(one for one in advice.suggestions if one.title == "Undo, then the same with larger limits")
     assert longer.undo
     assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
-    assert longer.stop.max_iterations > 80
+    assert longer.stop.max_iterations > 160
     after = smooth(mesh, longer.smoother, longer.stop)
     assert after.after.inverted < result.after.inverted
     stopped = iterate(mesh, longer.smoother)

@@ -16,12 +16,12 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.barriers.surface_fit import SurfaceFit
 from hexmend.energy.ranks import Ranks
 from hexmend.iteration import ActiveSet, Step
-from hexmend.optimise.descent import DESCENT, Descent, descend
+from hexmend.optimise.descent import DESCENT, Descent
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import DampedDirection, TruncatedNewton
-from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
+from hexmend.smoothers.mend.newton_steps import newton_step
 
 
 @dataclass(frozen=True)
@@ -244,7 +244,7 @@ class Floors:
 
     def _descend(self, energy: MeshEnergy, x: np.ndarray, direction: DampedDirection) -> Descent | None:
         """Take a step; None where there is none, or a short one: nodes are as centred as they can be."""
-        step = descend(energy, x, 0.0, direction, SEARCH, NEWTON.max_step)
+        step = newton_step(energy, x, 0.0, direction)
         if step is None or step.alpha < DESCENT.short:
             return None
         self.solver_iterations += step.direction.solver_iterations

@@ -14,13 +14,12 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.energy.barriers.surface_fit import NO_LIMIT, FitTolerances, SurfaceFit
 from hexmend.iteration import Step, map_steps
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.descent import descend
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.parameters import AUTO
 from hexmend.quality import measure
 from hexmend.smoothers.mend.floors import BARRIER_SAFE, FLOORS
-from hexmend.smoothers.mend.newton_steps import NEWTON, SEARCH
+from hexmend.smoothers.mend.newton_steps import newton_step
 from hexmend.smoothers.mend.untangling import untangle
 
 #: Tolerance of patches without one that is given, and of what is to be exact, in mean edge lengths.
@@ -224,7 +223,7 @@ class FreeBoundary:
         for slope in config.slopes[:-1]:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
-            steps = untangle(start, shape, locked, epsilon, NEWTON, config.reductions)
+            steps = untangle(start, shape, locked, epsilon, config.reductions)
             untangled = yield from map_steps(steps, lambda step: replace(step, infeasible=True))  # off the surface
             if untangled.left(locked, energy):
                 continue
@@ -248,11 +247,11 @@ class FreeBoundary:
             maximised = self._maximised(fit.with_weights(slope=slope), locked)
             direction = FloorDirection(maximised)
             for _ in range(config.steps):
-                step = descend(maximised.as_energy, x, 0.0, direction, SEARCH, NEWTON.max_step)
+                step = newton_step(maximised.as_energy, x, 0.0, direction)
                 if step is None or step.alpha == 0:
                     break
                 x = step.x
-            yield Step(self.energy.to_mesh_units(x), intermediate=True, infeasible=True)
+                yield Step(self.energy.to_mesh_units(x), intermediate=True, infeasible=True)
             least = float(maximised.hexes.corners(x).min(initial=np.inf))
             best = [
                 (least, x) if fit.is_within(x, factor) and least > reached[0] else reached

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from hexmend.energy import ObjectiveNorm
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.search_direction import TruncatedNewtonConfig
 from hexmend.parameters import AUTO, parameter
 from hexmend.smoothers.base_optimiser import MAX_P, ObjectiveSmoother
 
@@ -49,12 +48,6 @@ class MendSettings(ObjectiveSmoother):
         False,
         help="Keep the best iterate that lowers neither the least q(H) nor the minimum scaled Jacobian.",
         label="Keep the best result",
-    )
-    solver_iterations: int = parameter(
-        TruncatedNewtonConfig.iterations,
-        low=1,
-        help="Iteration limit of conjugate gradients for a Newton step.",
-        advanced=True,
     )
 
     @property

@@ -9,7 +9,8 @@ import numpy as np
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
+from hexmend.smoothers.mend.newton_steps import newton_step
 
 #: Fall of the objective in so many steps, as a share of it, below which they are the last: of a stage that another one
 #: follows, with one p before the next, and where steps are limited: on a faceted surface they go from facet to facet.
@@ -27,7 +28,7 @@ class ShapeOptimum:
 
 
 def optimise_shape(
-    energy: MeshEnergy, points: np.ndarray, max_p: float, intermediate: bool, newton: NewtonConfig
+    energy: MeshEnergy, points: np.ndarray, max_p: float, intermediate: bool
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy at delta = 0, then with p doubled again and again up to `max_p`.
 
@@ -40,7 +41,6 @@ def optimise_shape(
         No higher than the first p: minimise once.
     intermediate : bool
         Another stage follows.
-    newton : NewtonConfig
 
     Yields
     ------
@@ -48,7 +48,7 @@ def optimise_shape(
         After each step of all nodes.
     """
     while True:
-        steps = _minimise(energy, points, energy.norm.p < max_p, intermediate, newton)
+        steps = _minimise(energy, points, energy.norm.p < max_p, intermediate)
         del points  # large meshes have no memory for those before the first step
         reached = yield from steps
         if reached.outcome is not None:
@@ -59,14 +59,15 @@ def optimise_shape(
 
 
 def _minimise(
-    energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool, newton: NewtonConfig
+    energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy with one p; if p rises afterwards, only until it hardly falls."""
-    direction, x = newton.direction(), energy.to_edge_units(points)
+    direction = TruncatedNewton(TruncatedNewtonConfig(deflated=True, definite=False))
+    x = energy.to_edge_units(points)
     values: list[float] = []
     before = 0.0
     while True:
-        descent = newton.step(energy, x, 0.0, direction)
+        descent = newton_step(energy, x, 0.0, direction)
         if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate or p_will_rise)):
             break
         values.append(descent.value - energy.cube_value)

@@ -15,7 +15,6 @@ from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
 from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, optimise_shape
 from hexmend.smoothers.mend.untangling import Untangled, untangle
 
@@ -56,8 +55,7 @@ class ShapeStages:
             decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
-        newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
-        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate, newton)
+        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate)
         del mesh, start, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
 
@@ -67,16 +65,14 @@ class ShapeStages:
         return (yield from stages._shape(mesh, energy, True)).points
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
-        settings, newton = self.settings, NewtonConfig(self.settings.solver_iterations)
-        return (yield from untangle(mesh, energy.without_size(), locked, settings.initial_epsilon, newton))
+        return (yield from untangle(mesh, energy.without_size(), locked, self.settings.initial_epsilon))
 
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Go from points (n, 3), or a coarse optimum, to the optimum of shape without inverted corners there."""
         points = yield from nested_start(energy.mesh.with_points(points), energy, self.coarse_shape, self._nested)
         inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         energy = energy.with_objective(energy.norm, inverted)
-        newton = NewtonConfig(self.settings.solver_iterations, deflated=True)
-        return (yield from optimise_shape(energy, points, self.settings.p_limit, True, newton))
+        return (yield from optimise_shape(energy, points, self.settings.p_limit, True))
 
     def _sound(self, energy: MeshEnergy, points: np.ndarray) -> MeshEnergy:
         """Return an energy that floors are added to, without the corners that are inverted at points (n, 3)."""

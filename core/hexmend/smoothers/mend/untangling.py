@@ -14,9 +14,10 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import newton_step
 
 #: Factors of epsilon from one step to the next with a boundary that is fixed: what a step can follow, and one that is
 #: damped, and so shorter.
@@ -84,7 +85,6 @@ def untangle(
     energy: MeshEnergy,
     locked: np.ndarray,
     epsilon: float,
-    newton: NewtonConfig,
     reductions: tuple[float, float] = REDUCTIONS,
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
@@ -99,7 +99,6 @@ def untangle(
         Corners that fixed nodes lock in inversion.
     epsilon : float
         The first one, in cubes of the mean edge length, or with a target in the volumes that hexes are to have.
-    newton : NewtonConfig
     reductions : (float, float)
         Factors of epsilon after a step that is not damped, and after one that is.
 
@@ -116,10 +115,10 @@ def untangle(
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     del points, quality  # large meshes have no memory for what is no longer needed
-    fewest, idle, direction = now.inverted, 0, newton.direction()
+    fewest, idle, direction = now.inverted, 0, TruncatedNewton(TruncatedNewtonConfig(definite=False))
     while now.inverted and idle < PATIENCE:
         delta = min(MAX_DELTA, float(np.sqrt(epsilon * (epsilon - min(now.worst, 0.0)))))
-        descent = newton.step(energy, now.x, delta, direction)
+        descent = newton_step(energy, now.x, delta, direction)
         if descent is None:
             break
         del now
