@@ -21,8 +21,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     """Declare the options of one run: a method with its parameters, or a recipe, and the limits."""
     parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
     add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
-    _add_boundary(parser)
-    _add_target(parser)
+    _add_parameters(parser)
     text = "run the methods of this recipe, a FILE.toml or a name such as gentle; limits hold for each of them"
     parser.add_argument("--recipe", metavar="RECIPE", help=text)
     _add_limits(parser)
@@ -32,8 +31,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
     text = "a parameter of the one method, or of every method that has it"
     add_repeated(parser, "--set", "[METHOD.]KEY=VALUE", text)
-    _add_boundary(parser)
-    _add_target(parser)
+    _add_parameters(parser)
     _add_limits(parser)
     add_force(parser)
 
@@ -115,8 +113,8 @@ def parse_settings(words: list[str]) -> dict[str, str]:
     return dict(word.split("=", 1) for word in words)
 
 
-def _add_boundary(parser: argparse.ArgumentParser) -> None:
-    """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
+def _add_parameters(parser: argparse.ArgumentParser) -> None:
+    """Declare the short forms of `--set boundary=...` and of the goal, the target and the layers."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
     text = (
@@ -124,10 +122,6 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
         "Jacobian, or the longest explicit time step"
     )
     parser.add_argument("--goal", choices=("balanced", "shape", "scaled-jacobian", "time-step"), help=text)
-
-
-def _add_target(parser: argparse.ArgumentParser) -> None:
-    """Declare the short forms of `--set target=...` and `--set layers=...`."""
     parser.add_argument(
         "--target",
         metavar="ideal|given-shape|given-size|given|FIELD",

@@ -16,14 +16,7 @@ from typing import IO, Any, NamedTuple
 
 from hexmend.errors import FileError
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.storage.file_progress import (
-    FileAction,
-    FileProgress,
-    file_operation,
-    report,
-    stage,
-    watch_files,
-)
+from hexmend.io.storage.file_progress import FileAction, FileProgress, file_operation, report, stage, watch_files
 from hexmend.terminal_text import printable
 
 #: Time limit of a reader in seconds, and further seconds for each megabyte of the file.

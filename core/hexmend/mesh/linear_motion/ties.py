@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from hexmend.arrays import mask
@@ -11,29 +9,7 @@ from hexmend.mesh.linear_motion.subspaces import TOLERANCE, fixed_spaces, rounde
 from hexmend.mesh.topology.components import components
 
 
-class Ties(NamedTuple):
-    """Ties to masters that are not tied themselves, and the restrictions that cycles of ties imply for masters.
-
-    Parameters
-    ----------
-    tied, master : (t,) int32
-        Each tied node once, ascending, and the node that it follows.
-    rotations : (t, 3, 3) float64
-        The displacement of tied[i] is rotations[i] times that of master[i].
-    nodes : (k,) int32
-        Masters whose displacement a cycle of ties restricts; one can be there several times.
-    projectors : (k, 3, 3) float64
-        Projectors onto their admissible displacements.
-    """
-
-    tied: np.ndarray
-    master: np.ndarray
-    rotations: np.ndarray
-    nodes: np.ndarray
-    projectors: np.ndarray
-
-
-def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> Ties:
+def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> tuple[np.ndarray, ...]:
     """Resolve chains and cycles of ties, as at an edge of a box that is periodic in two directions.
 
     A node that is tied to itself by a rotation, as on the axis of a wedge, may move along the axis.
@@ -46,8 +22,15 @@ def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> Tie
 
     Returns
     -------
-    Ties
-        The master of connected nodes is the lowest that is not tied, or else the lowest.
+    tied, master : (t,) int32
+        Each tied node once, ascending, and the node that it follows, which is not tied itself: of connected nodes the
+        lowest that is not tied, or else the lowest.
+    rotations : (t, 3, 3) float64
+        The displacement of tied[i] is rotations[i] times that of master[i].
+    nodes : (k,) int32
+        Masters whose displacement a cycle of ties restricts; one can be there several times.
+    projectors : (k, 3, 3) float64
+        Projectors onto their admissible displacements.
     """
     nodes, ends = np.unique(np.concatenate([tied, master]), return_inverse=True)
     tied, master = ends[: tied.size], ends[tied.size :]
@@ -62,7 +45,7 @@ def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> Tie
     cycle = turn[tied].transpose(0, 2, 1) @ rotations @ turn[master]
     bent = np.flatnonzero((np.abs(cycle - np.eye(3)) > TOLERANCE).any(axis=(1, 2)))
     follows = np.flatnonzero(root != np.arange(nodes.size))
-    return Ties(
+    return (
         nodes[follows].astype(np.int32),
         nodes[root[follows]].astype(np.int32),
         rounded(turn[follows]),
