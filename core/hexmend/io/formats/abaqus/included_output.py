@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits, edited
+from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
 from hexmend.io.formats.abaqus.deck import Deck, Reference
@@ -53,42 +53,26 @@ def write_files(root: Deck, edits: Mapping[Deck, Edits], target: Path, files: At
     if is_same_file(root.path, target):
         for one, part in own.items():
             if one is not root:
-                _write(files.add(one.path), one, part)
-        _write(file, root, own.get(root, _none()))
+                part.write(files.add(one.path), one.given)
+        own.get(root, Edits()).write(file, root.given)
         changed = sorted(one.path.name for one in own if one is not root)
         return (f"Coordinates are replaced in {', '.join(changed)} too.",) if changed else ()
     renamed = _new_names(root, own, target)
     notes = []
     for one in reversed(list(root.walk())[1:]):  # included files before those that include them
         if one in renamed:
-            part = _with_names(own.get(one, _none()), _references(one, renamed))
-            _write(files.add(_place(target, renamed[one])), one, part)
+            part = _with_names(own.get(one, Edits()), _references(one, renamed))
+            part.write(files.add(_place(target, renamed[one])), one.given)
             notes.append(f"{one.reference.name} is written as {renamed[one]}.")
         else:
             notes += _copied(one, renamed, target, files)
-    _write(file, root, _with_names(own.get(root, _none()), _references(root, renamed)))
+    _with_names(own.get(root, Edits()), _references(root, renamed)).write(file, root.given)
     return tuple(dict.fromkeys(reversed(notes)))
 
 
 def _references(file: Deck, renamed: dict[Deck, str]) -> list[tuple[Reference, str]]:
     """Places in a file that name files with another name in the copy, and these names."""
     return [(one.reference, renamed[one]) for one in file.included if one in renamed]
-
-
-def _none() -> Edits:
-    nothing = np.zeros(0, np.int64)
-    return Edits(nothing, nothing, [])
-
-
-def _write(path: Path, file: Deck, edits: Edits) -> None:
-    with open(path, "wb") as out:
-        out.writelines(edited(file.given, edits))
-
-
-def _merged(parts: list[Edits]) -> Edits:
-    """Edits of several parts of a file, in the order of the file."""
-    begin, end = (np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end"))
-    return Edits(begin, end, [text for part in parts for text in part.texts]).in_order()
 
 
 def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
@@ -98,7 +82,8 @@ def _with_names(edits: Edits, names: list[tuple[Reference, str]]) -> Edits:
         quote = b'"' if reference.parent.given[reference.begin : reference.begin + 1] == b'"' else b""
         place = np.array([reference.begin]), np.array([reference.end])
         parts.append(Edits(*place, [quote + name.encode() + quote]))
-    return _merged(parts)
+    begin, end = (np.concatenate([getattr(part, name) for part in parts]) for name in ("begin", "end"))
+    return Edits(begin, end, [text for part in parts for text in part.texts]).in_order()
 
 
 def _new_names(root: Deck, own: Collection[Deck], target: Path) -> dict[Deck, str]:

@@ -48,11 +48,11 @@ class CaseCoordinates:
             else:
                 content, root = replaced_points(self.files.part("points"), points), case_folder(target)
                 make_folder(root.parent)
+                left = results(self.files.root)
                 with temporary_folder(root) as temporary:
-                    copy_case(self.files, temporary, content)
+                    _copy_folder(self.files.root, temporary, self.files, set(left), content)
                     if target.is_file():  # the .foam file, alone in the folder, which has to be empty now
                         os.replace(target, temporary / target.name)
-                left = results(self.files.root)
                 named = ", ".join([*left[:4], *(["..."] if len(left) > 4 else [])])
                 notes = (f"The results of the case ({named}) are not copied.",) if left else ()
             create_marker(target)
@@ -81,28 +81,6 @@ def results(root: Path) -> list[str]:
         return entry.is_dir() and (later or entry.name.startswith("processor") or entry.name in _RESULTS)
 
     return sorted(entry.name for entry in root.iterdir() if is_result(entry))
-
-
-def copy_case(files: CaseFiles, target: Path, points: bytes) -> None:
-    """Copy a case without its results, with other points.
-
-    Links to files are followed; links to folders are followed if these are outside the case.
-
-    Parameters
-    ----------
-    files : CaseFiles
-        The case to copy.
-    target : Path
-        An empty folder.
-    points : bytes
-        New content of the file points.
-
-    Raises
-    ------
-    OSError
-        Where a file cannot be read or written.
-    """
-    _copy_folder(files.root, target, files, set(results(files.root)), points)
 
 
 def _copy_folder(source: Path, target: Path, files: CaseFiles, omitted: set[str], points: bytes) -> None:
