@@ -34,7 +34,11 @@ def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> tup
     """
     nodes, ends = np.unique(np.concatenate([tied, master]), return_inverse=True)
     tied, master = ends[: tied.size], ends[tied.size :]
-    root = _roots(nodes.size, tied, master)
+    # The root of a node is the lowest of its component that is not tied, or else the lowest.
+    component = components(nodes.size, np.column_stack([tied, master]))
+    order = np.lexsort((np.arange(nodes.size), mask(tied, nodes.size), component))
+    _, first = np.unique(component[order], return_index=True)
+    root = order[first][component]
     turn = np.tile(np.eye(3), (nodes.size, 1, 1))  # the displacement of a node is `turn` times that of its root
     known = root == np.arange(nodes.size)
     while not known.all():
@@ -52,11 +56,3 @@ def resolved(tied: np.ndarray, master: np.ndarray, rotations: np.ndarray) -> tup
         nodes[root[tied[bent]]].astype(np.int32),
         fixed_spaces(cycle[bent]),
     )
-
-
-def _roots(count: int, tied: np.ndarray, master: np.ndarray) -> np.ndarray:
-    """Root of each of `count` nodes: the lowest of its component that is not tied, or else the lowest; (count,) int."""
-    component = components(count, np.column_stack([tied, master]))
-    order = np.lexsort((np.arange(count), mask(tied, count), component))
-    _, first = np.unique(component[order], return_index=True)
-    return order[first][component]

@@ -151,9 +151,10 @@ def titled_fields(data: Fields) -> dict[tuple[str, str, int], tuple[str, dict[st
     found: dict[tuple[str, str, int], tuple[str, dict[str, np.ndarray]]] = {}
     for entity, arrays in data.items():
         for name, values in arrays.items():
-            key = _key(name, values)
-            if key is None:
+            code = type_code(values)
+            if code is None:
                 continue
+            key = (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
             if key not in found:
                 title = titles[name]
                 if any(other == name for other, _, _ in found):
@@ -175,12 +176,6 @@ def type_code(values: np.ndarray) -> str | None:
     else:
         return None
     return code if all(values.shape[1:]) else None
-
-
-def _key(name: str, values: np.ndarray) -> tuple[str, str, int] | None:
-    """Name, type code and width of an array; None where MED has no type for it."""
-    code = type_code(values)
-    return None if code is None else (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
 
 
 def _clean_name(name: str, end: str) -> str:
