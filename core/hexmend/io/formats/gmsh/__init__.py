@@ -21,5 +21,5 @@ register(
     stored_names=frozenset({"gmsh:physical"}),
     limitations=deferred("hexmend.io.formats.gmsh.writer:limitations"),
     matches=lambda head: b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD"),
-    locate=deferred("hexmend.io.formats.gmsh.coordinates:locate"),
+    locate=deferred("hexmend.io.formats.gmsh.reader:locate"),
 )
