@@ -28,9 +28,11 @@ from hexmend.quality.mesh_quality import measure_against_target
 from hexmend.quality.metric import METRICS, MeshValues, Metric, Values
 from hexmend.quality.validity import jacobian_bounds
 
-#: Metrics that a kernel computes from points, hexes and arrays for its results: the kernel, the number of its results
-#: and the index of the metric's.
-_KERNELS: dict[str, tuple[Callable[..., None], int, int]] = {
+#: Kernel that computes results from points, hexes and arrays for them, the number of its results, and an index of them.
+_KernelResult = tuple[Callable[..., None], int, int]
+
+#: Metrics that a kernel computes.
+_KERNELS: dict[str, _KernelResult] = {
     "min-angle": (faces.angles, 2, 0),
     "max-angle": (faces.angles, 2, 1),
     "aspect-ratio": (metrics.axes, 3, 0),
@@ -55,15 +57,10 @@ _FACE_FIELDS = {
 
 
 def _by_kernel(
-    kernel: Callable[..., None],
-    n_results: int,
-    index: int,
-    worst: float,
-    points: np.ndarray,
-    hexes: np.ndarray,
-    quality: ElementQuality,
+    result: _KernelResult, worst: float, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality
 ) -> np.ndarray:
     """Compute a kernel's result; NaN, of a hex so large that the squares of its lengths overflow, becomes `worst`."""
+    kernel, n_results, index = result
     points, hexes = as_points_and_hexes(points, hexes)
     values = np.empty((n_results, len(hexes)))
     kernel(points, hexes, *values)
@@ -75,7 +72,7 @@ def _jacobian(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) ->
     """Least of the centre's determinant and of sigma at the corners, the same that `ElementQuality.inverted` tests."""
     if len(quality.sigma) != len(hexes):
         raise MeshError(f"the quality is that of {len(quality.sigma)} hexes: expected that of the same {len(hexes)}")
-    return np.fmin(quality.sigma, _by_kernel(metrics.centre, 1, 0, -math.inf, points, hexes, quality))
+    return np.fmin(quality.sigma, _by_kernel((metrics.centre, 1, 0), -math.inf, points, hexes, quality))
 
 
 def _jacobian_ratio(bounds: np.ndarray) -> np.ndarray:
@@ -94,14 +91,6 @@ def _mid_node_offset(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
         offsets[part] = np.where(middles >= 0, divide(away, lengths, math.inf), 0.0).max(axis=1)
     return offsets
-
-
-def _aspect_against_given(ratios: np.ndarray) -> np.ndarray:
-    return divide(ratios.max(axis=1), ratios.min(axis=1), math.inf)
-
-
-def _size_against_target(ratios: np.ndarray) -> np.ndarray:
-    return np.cbrt(ratios).prod(axis=1)
 
 
 def _of_length_ratios(of: Callable[[np.ndarray], np.ndarray], mesh: Mesh, quality: ElementQuality) -> np.ndarray:
@@ -127,7 +116,7 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
     "time-step": (lambda points, hexes, quality: np.maximum(least_heights(points, hexes), 0.0), None),
     "aspect-against-given": (
         lambda points, hexes, quality: np.ones(len(hexes)),
-        partial(_of_length_ratios, _aspect_against_given),
+        partial(_of_length_ratios, lambda ratios: divide(ratios.max(axis=1), ratios.min(axis=1), math.inf)),
     ),
     "q-of-target": (
         lambda points, hexes, quality: quality.q,
@@ -135,14 +124,14 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
     ),
     "size-against-target": (
         lambda points, hexes, quality: np.ones(len(hexes)),
-        partial(_of_length_ratios, _size_against_target),
+        partial(_of_length_ratios, lambda ratios: np.cbrt(ratios).prod(axis=1)),
     ),
 }
 
 
 def _functions(name: str, worst: float) -> tuple[Values, MeshValues | None]:
     if name in _KERNELS:
-        return partial(_by_kernel, *_KERNELS[name], worst), None
+        return partial(_by_kernel, _KERNELS[name], worst), None
     if name in _FACE_FIELDS:
         return partial(of_hexes, _FACE_FIELDS[name]), partial(of_mesh, _FACE_FIELDS[name])
     return _OTHERS[name]
