@@ -17,7 +17,7 @@ from dataclasses import asdict
 from time import monotonic
 from typing import IO, Any
 
-from hexmend.io.storage.subprocess_reader import last_line
+from hexmend.io.storage.subprocess_reader import last_line, wait_for
 from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
 
@@ -105,21 +105,10 @@ def run_task(
 
 def _wait(process: subprocess.Popen, request: str, seconds: float, cancelled: Callable[[], bool]) -> bool | None:
     """Wait for the end of the process. Return True if it is out of time, None if it was cancelled."""
-    end = monotonic() + seconds if seconds else float("inf")
-    try:
+    with suppress(OSError):  # it has ended already; its last line has the reason
         process.stdin.write(request.encode() + b"\n")
         process.stdin.flush()
-    except OSError:  # it has ended already; its last line has the reason
-        pass
-    while True:
-        try:
-            process.wait(min(POLL_SECONDS, max(0.0, end - monotonic())))
-            return False
-        except subprocess.TimeoutExpired:
-            if cancelled():
-                return None
-            if monotonic() >= end:
-                return True
+    return wait_for(process, seconds or float("inf"), POLL_SECONDS, cancelled)
 
 
 def _answer(status: int, output: IO[bytes], errors: IO[bytes]) -> dict[str, Any]:

@@ -57,7 +57,7 @@ def run(task: Task, version: str) -> dict[str, Any]:
         row |= {f"{key}_after": value for key, value in _figures(result.mesh).items() if key in figures}
         row |= more
         if task.output:
-            write(task.output, result)
+            write(task.output, result.mesh)
             row["output"] = task.output
         status, reason = Status.DONE, ""
     except _Mismatch as error:
