@@ -291,7 +291,7 @@ def read_text_bytes(path: Path) -> bytes:
 
 
 def is_number(word: str) -> bool:
-    """Whether a word is a natural number of at most 18 digits."""
+    """Return True if a word is a natural number of at most 18 digits."""
     return word.isascii() and word.isdigit() and len(word) < 19
 
 
