@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -19,14 +20,46 @@ from hexmend.kernels import faces, metrics
 from hexmend.mesh.edge_length import hex_lengths
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
+from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, as_points_and_hexes
 from hexmend.quality.corner_heights import least_heights
-from hexmend.quality.finite_volume.geometry import chunks, divide
-from hexmend.quality.finite_volume.hex_values import of_hexes, of_mesh
+from hexmend.quality.finite_volume.face_quality import face_quality, worst_of_hexes
+from hexmend.quality.finite_volume.geometry import cell_geometry, chunks, divide
 from hexmend.quality.measure import ElementQuality
 from hexmend.quality.mesh_quality import measure_against_target
 from hexmend.quality.metric import METRICS, MeshValues, Metric, Values
 from hexmend.quality.validity import jacobian_bounds
+
+#: Fields of `FaceQuality`, and their better end: 1 if higher values are better, -1 if lower ones are.
+_BETTER = {"non_orthogonality": -1, "skewness": -1, "weight": 1, "volume_ratio": 1}
+
+#: Values of the mesh that was measured last, by its quality: all fields take hardly longer than one.
+_LAST: WeakKeyDictionary[ElementQuality, Mapping[str, np.ndarray]] = WeakKeyDictionary()
+
+
+def _faces_of_hexes(field: str, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of`; neighbours are those among the hexes."""
+    points, hexes = as_points_and_hexes(points, hexes)
+    return _face_values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
+
+
+def _faces_of_mesh(field: str, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of_mesh`, by the mesh's topology."""
+    return _face_values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
+
+
+def _face_values(
+    points: np.ndarray, hexes: np.ndarray, quality: ElementQuality, topology: Callable[[], Topology]
+) -> Mapping[str, np.ndarray]:
+    """Worst value over the faces of each hex, (m,) float64, by the field of `FaceQuality`."""
+    values = _LAST.get(quality)
+    if values is None:
+        found = face_quality(cell_geometry(points, hexes), hexes, topology().face_neighbours)
+        values = {name: worst_of_hexes(found, getattr(found, name), len(hexes), of) for name, of in _BETTER.items()}
+        _LAST.clear()
+        _LAST[quality] = values
+    return values
+
 
 #: Kernel that computes results from points, hexes and arrays for them, the number of its results, and an index of them.
 _KernelResult = tuple[Callable[..., None], int, int]
@@ -133,7 +166,7 @@ def _functions(name: str, worst: float) -> tuple[Values, MeshValues | None]:
     if name in _KERNELS:
         return partial(_by_kernel, _KERNELS[name], worst), None
     if name in _FACE_FIELDS:
-        return partial(of_hexes, _FACE_FIELDS[name]), partial(of_mesh, _FACE_FIELDS[name])
+        return partial(_faces_of_hexes, _FACE_FIELDS[name]), partial(_faces_of_mesh, _FACE_FIELDS[name])
     return _OTHERS[name]
 
 

@@ -17,7 +17,7 @@ from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
 from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words, word_ranges
-from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.formats.gmsh import version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh, with_periodic_surfaces
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
@@ -26,7 +26,7 @@ from hexmend.mesh.mesh import Mesh
 
 #: Readers of sections by version and keyword.
 READERS = {
-    1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
+    1: {"$NOD": version_2.read_nod, "$ELM": version_2.read_elm},
     2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
     | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": version_4.read_periodic},
