@@ -68,10 +68,8 @@ class Shortage:
         titled : bool
             Call methods by their titles and not by their names.
         """
-        names = listed(
-            [f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter], "or"
-        )
-        lighter = [f"use {names}, which need less"] if names else []
+        methods = [f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter]
+        lighter = [f"use {listed(methods, 'or')}, which need less"] if methods else []
         remedies = listed([*lighter, "close other programs", "smooth a smaller mesh", *more], "or")
         return f"{remedies[:1].upper()}{remedies[1:]}."
 
