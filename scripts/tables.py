@@ -22,7 +22,7 @@ from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.solver_checks import QUOTED, SOLVERS
-from hexmend.solver_checks.validity import VALIDITY
+from hexmend.solver_checks.solver import VALIDITY
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Structure

@@ -70,12 +70,12 @@ if TYPE_CHECKING:
     from hexmend.smoothers.general import General as General
     from hexmend.smoothers.getme.sequential import SequentialGETMe as SequentialGETMe
     from hexmend.smoothers.getme.simultaneous import GETMe as GETMe
-    from hexmend.smoothers.global_.modified_newton import GlobalModifiedNewton as GlobalModifiedNewton
+    from hexmend.smoothers.global_.newton import GlobalModifiedNewton as GlobalModifiedNewton
     from hexmend.smoothers.global_.newton import GlobalNewtonRaphson as GlobalNewtonRaphson
     from hexmend.smoothers.global_.steepest_descent import GlobalSteepestDescent as GlobalSteepestDescent
     from hexmend.smoothers.laplacian.laplacian import Laplacian as Laplacian
     from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian as SmartLaplacian
-    from hexmend.smoothers.local.modified_newton import LocalModifiedNewton as LocalModifiedNewton
+    from hexmend.smoothers.local.newton import LocalModifiedNewton as LocalModifiedNewton
     from hexmend.smoothers.local.newton import LocalNewtonRaphson as LocalNewtonRaphson
     from hexmend.smoothers.local.patch import LocalPatch as LocalPatch
     from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent as LocalSteepestDescent

@@ -135,18 +135,6 @@ def cross_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return product
 
 
-def largest_of_rows(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Find the largest of `values` (n,) among the numbers of each row (k, w), (k,).
-
-    >>> largest_of_rows(np.array([3.0, 1.0, 2.0]), np.array([[1, 2], [2, 0]])).tolist()
-    [2.0, 3.0]
-    """
-    largest = values.take(rows[:, 0])
-    for column in range(1, rows.shape[1]):
-        np.maximum(largest, values.take(rows[:, column]), out=largest)
-    return largest
-
-
 def differing_rows(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Mark rows (k, 3) that differ, (k,) bool.
 

@@ -61,6 +61,15 @@ def count_phrase(number: int, singular: str, plural: str | None = None) -> str:
     return f"{number:,} {singular if number == 1 else plural or f'{singular}s'}"
 
 
+def listed(names: list[str], word: str) -> str:
+    """List names with a word before the last.
+
+    >>> listed([], "or"), listed(["a"], "or"), listed(["a", "b", "c"], "or")
+    ('', 'a', 'a, b or c')
+    """
+    return f" {word} ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+
+
 def capitalised(sentence: str) -> str:
     """Begin a sentence with a capital, and end it with a full stop; "" stays.
 

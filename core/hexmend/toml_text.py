@@ -54,7 +54,13 @@ def parse_toml(text: str, label: str, largest: int = MAX_CHARACTERS) -> dict[str
     """
     import tomllib
 
-    _check_size(text, label, largest)
+    if len(text) > largest:
+        raise ParameterError(f"has {len(text):,} characters: expected {label}, of {largest:,} at most")
+    # Strings may contain anything and may be keys: each is replaced by an empty one with as many lines.
+    bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
+    if deep := _DEEP_KEY.search(bare):
+        number = bare.count("\n", 0, deep.start()) + 1
+        raise ParameterError(f"line {number} has a key of more than {MAX_KEY_PARTS} parts")
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -64,13 +70,3 @@ def parse_toml(text: str, label: str, largest: int = MAX_CHARACTERS) -> dict[str
         end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
         message = str(error).replace("at end of document", end)
         raise ParameterError(f"is not TOML: {message[:1].lower()}{message[1:]}") from None
-
-
-def _check_size(text: str, label: str, largest: int) -> None:
-    if len(text) > largest:
-        raise ParameterError(f"has {len(text):,} characters: expected {label}, of {largest:,} at most")
-    # Strings may contain anything and may be keys: each is replaced by an empty one with as many lines.
-    bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
-    if deep := _DEEP_KEY.search(bare):
-        number = bare.count("\n", 0, deep.start()) + 1
-        raise ParameterError(f"line {number} has a key of more than {MAX_KEY_PARTS} parts")

@@ -18,10 +18,10 @@ from hexmend.energy import MeshEnergy, energies
 from hexmend.errors import HexmendError
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.fixing import fix_outside, with_pinned
-from hexmend.mesh.patches import partition_patches
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, locked_hexes, rank_worst
+from hexmend.smoothers.local.patch import partition_patches
 from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid, scrambled
 

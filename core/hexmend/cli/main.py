@@ -45,8 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     if argv is None:
         exit_on_signals()
-    _open_closed_streams()
-    _replace_unencodable()
+    _prepare_streams()
     try:
         status = _main(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()
@@ -68,15 +67,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 3
 
 
-def _open_closed_streams() -> None:
-    """Let standard streams that the caller has closed lead nowhere; files would get their numbers otherwise."""
+def _prepare_streams() -> None:
+    """Let streams that the caller has closed lead nowhere, and replace characters that the encoding does not have.
+
+    Otherwise files would get the numbers of closed streams, and such a character would end the program.
+    """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):  # in the order of their numbers
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115  (open to the end)
-
-
-def _replace_unencodable() -> None:
-    """Replace characters that the terminal's encoding does not have; they would end the program otherwise."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

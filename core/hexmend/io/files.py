@@ -116,11 +116,22 @@ def write(
             "path, then a hexmend.Mesh, such as result.mesh"
         )
     path = Path(path)
-    if like is not None:
-        with file_operation(path, FileAction.WRITING):
-            _write_like(path, mesh, like)
+    if like is None:
+        _write_anew(path, mesh, encoding, writable_format(path))
         return
-    _write_anew(path, mesh, encoding, writable_format(path))
+    with file_operation(path, FileAction.WRITING):
+        if not isinstance(like, Original):
+            given = read(like, as_is=True)
+            turned = with_consistent_orientation(given)
+            like = Original(Path(like), turned if difference(given, mesh, ()) else given)
+        if not replaces_coordinates(path, like):
+            problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
+            raise FileError(path, problem, "Write it without the argument like.")
+        check_not_included(path, like.path)
+        try:
+            replace_coordinates(path, mesh, like, format_of(like.path))
+        except CoordinatesError as error:
+            raise FileError(path, f"cannot be written: {error}", "Write it without the argument like.") from None
 
 
 def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
@@ -130,30 +141,15 @@ def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) ->
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
     write = format.write
     assert write is not None  # a format that has encodings
-    if format.place or format.remove:  # it writes several files, each as a whole
-        with file_operation(path, FileAction.WRITING):
+    with file_operation(path, FileAction.WRITING):
+        if format.place or format.remove:  # it writes several files, each as a whole
             write(path, mesh, encoding)
-        return
-    with file_operation(path, FileAction.WRITING), atomic_write(path) as temporary:
-        try:
-            write(temporary, mesh, encoding)
-        except FileError as error:  # it names the temporary file
-            raise FileError(path, error.problem, error.remedy) from None
-
-
-def _write_like(path: Path, mesh: Mesh, like: str | os.PathLike[str] | Original) -> None:
-    if not isinstance(like, Original):
-        given = read(like, as_is=True)
-        turned = with_consistent_orientation(given)
-        like = Original(Path(like), turned if difference(given, mesh, ()) else given)
-    if not replaces_coordinates(path, like):
-        problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
-        raise FileError(path, problem, "Write it without the argument like.")
-    check_not_included(path, like.path)
-    try:
-        replace_coordinates(path, mesh, like, format_of(like.path))
-    except CoordinatesError as error:
-        raise FileError(path, f"cannot be written: {error}", "Write it without the argument like.") from None
+            return
+        with atomic_write(path) as temporary:
+            try:
+                write(temporary, mesh, encoding)
+            except FileError as error:  # it names the temporary file
+                raise FileError(path, error.problem, error.remedy) from None
 
 
 def replaces_coordinates(path: str | os.PathLike[str], original: Original | None) -> bool:
@@ -204,26 +200,22 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
     if original is not None:
         check_not_included(path, original.path)
     with file_operation(path, FileAction.WRITING):
-        return _write_as_given(path, mesh, original)
-
-
-def _write_as_given(path: Path, mesh: Mesh, original: Original | None) -> Written:
-    reason: tuple[str, ...] = ()
-    if original is not None and replaces_coordinates(path, original):
-        try:
-            return replace_coordinates(path, mesh, original, format_of(original.path))
-        except CoordinatesError as error:
-            _check_content(path, original, str(error))
-            reason = (_anew(str(error), original),)
-        except ChangedFileError as error:
-            if is_same_file(path, original.path):
-                raise
-            reason = (_anew(f"{error.path.name} {error.problem}", original),)
-    elif original is not None and is_same_file(path, original.path):
-        _check_content(path, original, "coordinates alone are never replaced in its format")
-    elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
-        reason = (_anew(f"{original.path.name} does not exist any more", original),)
-    _write_anew(path, mesh, None, writable_format(path, None if original is None else original.path))
+        reason: tuple[str, ...] = ()
+        if original is not None and replaces_coordinates(path, original):
+            try:
+                return replace_coordinates(path, mesh, original, format_of(original.path))
+            except CoordinatesError as error:
+                _check_content(path, original, str(error))
+                reason = (_anew(str(error), original),)
+            except ChangedFileError as error:
+                if is_same_file(path, original.path):
+                    raise
+                reason = (_anew(f"{error.path.name} {error.problem}", original),)
+        elif original is not None and is_same_file(path, original.path):
+            _check_content(path, original, "coordinates alone are never replaced in its format")
+        elif original is not None and not original.path.exists() and path.suffix == original.path.suffix:
+            reason = (_anew(f"{original.path.name} does not exist any more", original),)
+        _write_anew(path, mesh, None, writable_format(path, None if original is None else original.path))
     return Written(False, reason)
 
 

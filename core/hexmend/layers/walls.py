@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.terminal_text import listed
+
 #: Ratio of successive heights, up or down, beyond which a column ends. Boundary layers grow by 1.05 to 2.
 GREATEST_RATIO = 2.5
 
@@ -142,8 +144,7 @@ class Layers:
         """Names of the walls in quotes, at most three of them."""
         named = [f"'{wall.name}'" for wall in self.walls[:3]]
         more = [f"{len(self.walls) - 3} more"] if len(self.walls) > 3 else []
-        *first, last = named + more
-        return f"{', '.join(first)} and {last}" if first else last
+        return listed(named + more, "and")
 
 
 def layers_of_columns(names: np.ndarray, hexes: np.ndarray, faces: np.ndarray, n_hexes: int) -> Layers:

@@ -13,8 +13,6 @@ Corners are numbered as VTK_HEXAHEDRON numbers them, from 0 (the thesis's Table 
          0 ----------- 1
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 #: Coordinates of the corners of the unit cube, (8, 3).

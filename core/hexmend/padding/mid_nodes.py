@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from hexmend.arrays import find_rows
@@ -17,22 +15,7 @@ SIDE_COLUMNS = FACE_COLUMNS[:, :4]
 CENTRES, MIDDLE = 12, 18
 
 
-class PaddedMidNodes(NamedTuple):
-    """Mid-nodes of a mesh and of the layer in it.
-
-    Parameters
-    ----------
-    mid_nodes : (m + k, 19) int32
-        Of the hexes of the mesh, then of the new ones.
-    sources : (j,) int64
-        Node at whose place each additional node begins, while the layer has no thickness.
-    """
-
-    mid_nodes: np.ndarray
-    sources: np.ndarray
-
-
-def padded_mid_nodes(sheet: Sheet) -> PaddedMidNodes:
+def padded_mid_nodes(sheet: Sheet) -> tuple[np.ndarray, np.ndarray]:
     """Find the mid-nodes of a mesh with a layer; additional nodes follow the nodes of the mesh and the copies.
 
     Parameters
@@ -42,7 +25,10 @@ def padded_mid_nodes(sheet: Sheet) -> PaddedMidNodes:
 
     Returns
     -------
-    PaddedMidNodes
+    mid_nodes : (m + k, 19) int32
+        Of the hexes of the mesh, then of the new ones.
+    sources : (j,) int64
+        Node at whose place each additional node begins, while the layer has no thickness.
     """
     given, (hexes, faces) = sheet.mesh.mid_nodes, sheet.faces.T
     numbers = _Numbers(sheet.mesh.n_nodes + len(sheet.originals))
@@ -69,7 +55,7 @@ def padded_mid_nodes(sheet: Sheet) -> PaddedMidNodes:
     behind = given.astype(np.int64)
     behind[hexes, CENTRES + faces] = new[:, CENTRES + INNER]
     _replace_sides(behind, sheet, keys, copies)
-    return PaddedMidNodes(np.concatenate([behind, new]).astype(np.int32), numbers.sources)
+    return np.concatenate([behind, new]).astype(np.int32), numbers.sources
 
 
 def _replace_sides(behind: np.ndarray, sheet: Sheet, keys: np.ndarray, copies: np.ndarray) -> None:

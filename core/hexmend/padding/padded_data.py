@@ -8,7 +8,6 @@ import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.mesh.hexahedron import EDGES, FACES
-from hexmend.mesh.mesh import Mesh
 from hexmend.padding.inserted_layer import Sheet
 
 
@@ -114,11 +113,6 @@ def padded_node_set(sheet: Sheet, members: np.ndarray) -> np.ndarray:
         joins[copies[at[marks[mesh.hexes[at, other]]], one]] = True
     joins &= marks[sheet.originals]
     return np.concatenate([members, mesh.n_nodes + np.flatnonzero(joins)])
-
-
-def element_numbering(mesh: Mesh) -> Numbering:
-    """Return the numbering that the hexes and other cells of a mesh share."""
-    return Numbering(mesh.hex_data, *(cells.data for cells in mesh.cells))
 
 
 def _numbers_items(values: np.ndarray) -> bool:

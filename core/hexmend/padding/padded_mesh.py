@@ -7,13 +7,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.mid_nodes import padded_mid_nodes
-from hexmend.padding.padded_data import (
-    element_numbering,
-    extended_data,
-    extended_node_data,
-    extended_set,
-    padded_node_set,
-)
+from hexmend.padding.padded_data import Numbering, extended_data, extended_node_data, extended_set, padded_node_set
 from hexmend.padding.placement import displacements, neighbours_behind
 from hexmend.padding.sides import padded_cells, padded_side_set
 
@@ -39,12 +33,12 @@ def padded_mesh(sheet: Sheet, thickness: float | None = None) -> Mesh:
     moves = displacements(sheet, thickness)
     sources, mid_nodes = sheet.originals, None
     if mesh.mid_nodes is not None:
-        mids = padded_mid_nodes(sheet)
-        mid_nodes, sources = mids.mid_nodes, np.concatenate([sources, mids.sources])
+        mid_nodes, more = padded_mid_nodes(sheet)
+        sources = np.concatenate([sources, more])
     nodes, share = neighbours_behind(sheet, moves)
     nodes = np.concatenate([nodes, sources[nodes.size :]])
     share = np.concatenate([share, np.zeros(sources.size - share.size)])
-    ids = element_numbering(mesh)
+    ids = Numbering(mesh.hex_data, *(cells.data for cells in mesh.cells))
     flat = Mesh(
         points=np.concatenate([mesh.points, mesh.points[sources]]),
         hexes=np.concatenate([sheet.inner_hexes, sheet.new_hexes]),

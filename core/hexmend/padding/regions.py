@@ -8,7 +8,7 @@ from hexmend.arrays import find_rows, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.two_dimensional import EMPTY, WEDGE
 from hexmend.padding.inserted_layer import CrossingError, Sheet
 
@@ -170,11 +170,8 @@ def _boundary_sides(mesh: Mesh, name: str) -> np.ndarray:
         quads = [cells.nodes[cells.sets[name]] for cells in mesh.cells if cells.dimension == 2 and name in cells.sets]
         if quads and name not in mesh.node_sets:
             chosen = _sides_on(mesh, quads)
-        elif name in set_names(mesh):
-            chosen = mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes[:, FACES]].all(axis=2)
         else:
-            nodes_in_set(mesh, name)  # raises, naming the sets
-            raise AssertionError(name)
+            chosen = mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes[:, FACES]].all(axis=2)
     sides = np.argwhere(chosen & on_boundary)
     if not len(sides):
         raise MeshError(f"the set {name!r} has no face on the boundary: expected a set of boundary faces, or of hexes")

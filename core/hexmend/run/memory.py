@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.terminal_text import count_phrase
+from hexmend.terminal_text import count_phrase, listed
 
 #: Bytes of every run, however small the mesh: SciPy with its libraries, and memory that the allocator retains.
 FIXED = 64 << 20
@@ -69,9 +68,9 @@ class Shortage:
         titled : bool
             Call methods by their titles and not by their names.
         """
-        names = _listed([f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter])
-        lighter = [f"use {names}, which need less"] if names else []
-        remedies = _listed([*lighter, "close other programs", "smooth a smaller mesh", *more])
+        methods = [f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter]
+        lighter = [f"use {listed(methods, 'or')}, which need less"] if methods else []
+        remedies = listed([*lighter, "close other programs", "smooth a smaller mesh", *more], "or")
         return f"{remedies[:1].upper()}{remedies[1:]}."
 
 
@@ -176,14 +175,6 @@ def _text(path: Path) -> str:
         return path.read_text(encoding="ascii", errors="replace")
     except OSError:
         return ""
-
-
-def _listed(names: Sequence[str]) -> str:
-    """
-    >>> _listed([]), _listed(["a"]), _listed(["a", "b", "c"])
-    ('', 'a', 'a, b or c')
-    """
-    return " or ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
 
 
 def peak_mb() -> float:

@@ -1,4 +1,4 @@
-"""Smoothers and untanglers: one module a method; each registers itself in METHODS.
+"""Smoothers and untanglers: a module for each method or family; each registers itself in METHODS.
 
 Every module of this package and of its folders is imported here: the command line, the viewer, the docs and the tests
 take the methods from METHODS. Other distributions add theirs through the entry-point group `hexmend.smoothers`, which

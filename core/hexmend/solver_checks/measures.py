@@ -71,7 +71,7 @@ def quad_shapes(points: np.ndarray, hexes: np.ndarray) -> QuadShapes:
         values[:, part] = [
             _aspect_ratios(quads).max(axis=0),
             _parallel_deviations(edges).max(axis=0),
-            _corner_angles(edges).max(axis=(0, 1)),
+            _angles(edges, -np.roll(edges, 1, axis=2)).max(axis=(0, 1)),
             _warping_factors(faces).max(axis=0),
             _corner_cosines(edges[:, :6]).min(axis=0),
         ]
@@ -94,18 +94,13 @@ def _aspect_ratios(quads: np.ndarray) -> np.ndarray:
 
 def _parallel_deviations(edges: np.ndarray) -> np.ndarray:
     """Largest angles of opposite edges of quads (3, q, 4, k) in degrees, (q, k); 180 with an edge of no length."""
-    return np.maximum(_angles(edges[:, :, 0], -edges[:, :, 2], 180.0), _angles(edges[:, :, 1], -edges[:, :, 3], 180.0))
+    return np.maximum(_angles(edges[:, :, 0], -edges[:, :, 2]), _angles(edges[:, :, 1], -edges[:, :, 3]))
 
 
-def _corner_angles(edges: np.ndarray) -> np.ndarray:
-    """Angles of adjacent edges of quads (3, q, 4, k) in degrees, (q, 4, k); 180 with an edge of no length."""
-    return _angles(edges, -np.roll(edges, 1, axis=2), 180.0)
-
-
-def _angles(a: np.ndarray, b: np.ndarray, otherwise: float) -> np.ndarray:
-    """Angles of vectors (3, ...) in degrees, `otherwise` for a vector without length."""
+def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Angles of vectors (3, ...) in degrees; 180 for a vector without length."""
     angles = np.degrees(np.arctan2(norm(cross(a, b)), dot(a, b)))
-    return np.where((norm(a) > 0) & (norm(b) > 0), angles, otherwise)
+    return np.where((norm(a) > 0) & (norm(b) > 0), angles, 180.0)
 
 
 def _warping_factors(faces: np.ndarray) -> np.ndarray:
@@ -165,11 +160,6 @@ class Measures:
     def cell_volumes(self) -> np.ndarray:
         """Sums of the pyramids of each hex, (m,) float64, in the cube of the mesh's unit of length."""
         return self.cells.volumes * self.cells.unit**3
-
-    @property
-    def internal_faces(self) -> np.ndarray:
-        """True for faces between two hexes, (f,) bool."""
-        return self.faces.internal
 
     @property
     def boundary_faces(self) -> np.ndarray:

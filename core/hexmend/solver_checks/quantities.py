@@ -90,11 +90,11 @@ def finite_volume_aspect_ratios(measures: Measures) -> np.ndarray:
     return np.where(np.isnan(ratios), np.inf, ratios)
 
 
+#: Functions by name.
 QUANTITIES: dict[str, Callable[[Measures], np.ndarray]] = {
     function.__name__: function
     for function in (time_steps, jacobian_ratios, gauss_determinants, pyramid_volumes, finite_volume_aspect_ratios)
 }
-"""Functions by name."""
 
 
 def quantity(name: str, where: str = "") -> Callable[[Measures], np.ndarray]:
@@ -105,8 +105,8 @@ def quantity(name: str, where: str = "") -> Callable[[Measures], np.ndarray]:
     name : str
         In `QUANTITIES`, an attribute of `Measures`, with dots, or "metric" and the name of a quality metric.
     where : str
-        Attribute of `Measures` that marks the faces or hexes to be taken; "" for all.
+        Attribute of `Measures`, with dots, that marks the faces or hexes to be taken; "" for all.
     """
     _, is_metric, metric = name.rpartition("metric ")
     of = methodcaller("metric", metric) if is_metric else QUANTITIES.get(name) or attrgetter(name)
-    return (lambda measures: of(measures)[getattr(measures, where)]) if where else of
+    return (lambda measures: of(measures)[attrgetter(where)(measures)]) if where else of

@@ -10,11 +10,10 @@ from hexmend.gallery import make
 from hexmend.kernels.local import Direction, NodeStepSettings
 from hexmend.kernels.patches import sweep
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.patches import partition_patches
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.local.patch import LocalPatch
+from hexmend.smoothers.local.patch import LocalPatch, partition_patches
 from tests.core.grids import grid, scrambled
 from tests.core.smoothers.test_smoothers import after
 

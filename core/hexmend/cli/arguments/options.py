@@ -21,8 +21,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     """Declare the options of one run: a method with its parameters, or a recipe, and the limits."""
     parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
     add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
-    _add_boundary(parser)
-    _add_target(parser)
+    _add_parameters(parser)
     text = "run the methods of this recipe, a FILE.toml or a name such as gentle; limits hold for each of them"
     parser.add_argument("--recipe", metavar="RECIPE", help=text)
     _add_limits(parser)
@@ -32,8 +31,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
     text = "a parameter of the one method, or of every method that has it"
     add_repeated(parser, "--set", "[METHOD.]KEY=VALUE", text)
-    _add_boundary(parser)
-    _add_target(parser)
+    _add_parameters(parser)
     _add_limits(parser)
     add_force(parser)
 
@@ -45,38 +43,23 @@ def add_repeated(parser: argparse.ArgumentParser, option: str, metavar: str, tex
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
     """Declare the options for the surface on which the boundary slides, and for the distance it may leave it by."""
-    parser.add_argument(
-        "--surface",
-        metavar="FILE",
-        help="let the boundary slide on this surface: STL, OBJ, PLY, VTP or VTK; implies --boundary slide",
-    )
-    parser.add_argument(
-        "--surface-tolerance",
-        metavar="X",
-        help="largest distance of the boundary from the surface, in mean edge lengths or such as 0.5%% of the "
-        "diagonal, or auto (default) or unlimited",
-    )
+    text = "let the boundary slide on this surface: STL, OBJ, PLY, VTP or VTK; implies --boundary slide"
+    parser.add_argument("--surface", metavar="FILE", help=text)
+    text = "largest distance of the boundary from the surface, in mean edge lengths or such as 0.5%% of the "
+    text += "diagonal, or auto (default) or unlimited"
+    parser.add_argument("--surface-tolerance", metavar="X", help=text)
 
 
 def add_motion(parser: argparse.ArgumentParser) -> None:
     """Declare the options for interfaces between materials and for the nodes of named sets."""
-    parser.add_argument(
-        "--interfaces",
-        choices=("keep", "slide", "free"),
-        help="nodes between materials: keep them like the boundary (default), let them slide, or let them move freely",
-    )
+    text = "nodes between materials: keep them like the boundary (default), let them slide, or let them move freely"
+    parser.add_argument("--interfaces", choices=("keep", "slide", "free"), help=text)
     add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
     add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
     add_repeated(parser, "--free", "SET", "release the nodes of this set that are pinned or on an interface")
     add_repeated(parser, "--plane", "SET", "let the nodes of this flat set move in its plane")
-    parser.add_argument(
-        "--periodic",
-        nargs=2,
-        metavar=("SET", "OTHER"),
-        action="append",
-        default=[],
-        help="move the nodes of two sets as one, such as opposite sides of a cell",
-    )
+    text = "move the nodes of two sets as one, such as opposite sides of a cell"
+    parser.add_argument("--periodic", nargs=2, metavar=("SET", "OTHER"), action="append", default=[], help=text)
 
 
 def add_curves(parser: argparse.ArgumentParser) -> None:
@@ -115,25 +98,16 @@ def parse_settings(words: list[str]) -> dict[str, str]:
     return dict(word.split("=", 1) for word in words)
 
 
-def _add_boundary(parser: argparse.ArgumentParser) -> None:
-    """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
+def _add_parameters(parser: argparse.ArgumentParser) -> None:
+    """Declare the short forms of `--set boundary=...` and of the goal, the target and the layers."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
-    text = (
-        "the best shape that lowers no key figure (default), the optimum of shape, the highest minimum scaled "
-        "Jacobian, or the longest explicit time step"
-    )
+    text = "the best shape that lowers no key figure (default), the optimum of shape, the highest minimum scaled "
+    text += "Jacobian, or the longest explicit time step"
     parser.add_argument("--goal", choices=("balanced", "shape", "scaled-jacobian", "time-step"), help=text)
-
-
-def _add_target(parser: argparse.ArgumentParser) -> None:
-    """Declare the short forms of `--set target=...` and `--set layers=...`."""
-    parser.add_argument(
-        "--target",
-        metavar="ideal|given-shape|given-size|given|FIELD",
-        help="target of the hexes: cubes, the given shape, size or both, or lengths from data or a formula in x, y, z "
-        "(default: ideal, or given-shape with layers)",
-    )
+    text = "target of the hexes: cubes, the given shape, size or both, or lengths from data or a formula in x, y, z "
+    text += "(default: ideal, or given-shape with layers)"
+    parser.add_argument("--target", metavar="ideal|given-shape|given-size|given|FIELD", help=text)
     text = "keep the heights of boundary layers (default unless --target is given), leave them free, or keep those on "
     text += "the walls given by sets"
     parser.add_argument("--layers", metavar="keep|free|SET[,SET]", help=text)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
-from types import TracebackType
-from typing import Self, TypeVar
+from contextlib import ExitStack, suppress
+from typing import Any, Self, TypeVar
 
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.io.storage.file_progress import watch_files
@@ -29,17 +28,14 @@ class Progress:
     """
 
     def __enter__(self) -> Self:
-        self._display = progress_display(True)
-        self._unwatched = watch_files(None)  # a file that is written meanwhile, such as a checkpoint, has no line
-        self._unwatched.__enter__()
-        self.signals = ExitAfterIteration()
-        self.signals.__enter__()
+        self._display, self._within = progress_display(True), ExitStack()
+        self._within.callback(self._display.close)
+        self._within.enter_context(watch_files(None))  # a file that is written meanwhile, as a checkpoint, has no line
+        self.signals = self._within.enter_context(ExitAfterIteration())
         return self
 
-    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self.signals.__exit__(kind, error, trace)
-        self._unwatched.__exit__(None, None, None)
-        self._display.close()
+    def __exit__(self, *error: Any) -> None:
+        self._within.__exit__(*error)
 
     def show(self, run: Run) -> bool:
         """Show the run's newest iteration; return False once a signal has asked it to end."""

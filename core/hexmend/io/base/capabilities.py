@@ -61,6 +61,20 @@ def altered_names(titles: dict[str, str], of: str = "sets") -> list[str]:
     return [f"names of {of} as they are ({', '.join(altered)})"] if altered else []
 
 
+def altered_set_names(mesh: Mesh, form: Callable[[str, str], str]) -> list[str]:
+    """Describe the names of sets that are not written unchanged; sets of each kind have their own names.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    form : callable
+        See `make_unique`.
+    """
+    cells = [name for one in mesh.cells for name in one.sets]
+    kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)
+    return altered_names({name: title for names in kinds for name, title in make_unique(names, form).items()})
+
+
 #: Float64 represents every integer up to this one.
 _LARGEST_EXACT = 1 << 53
 

@@ -24,7 +24,7 @@ from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.validation import as_hexes, as_points, check_node_numbers
-from hexmend.terminal_text import count_phrase
+from hexmend.terminal_text import count_phrase, listed
 
 #: Kinds of hexes and their numbers of nodes, in the order of VTK's types 12, 25 and 29.
 HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
@@ -334,4 +334,4 @@ def _inventory(blocks: list[Block], unread: Mapping[str, int] | None = None) -> 
         counts[block.kind] += len(block)
     phrases = [count_phrase(n, f"{kind} cell") for kind, n in counts.items()]
     phrases += [f"{count_phrase(n, 'cell')} of {kind}" for kind, n in list((unread or {}).items())[:6]]
-    return " and ".join([", ".join(phrases[:-1]), phrases[-1]] if len(phrases) > 1 else phrases) or "no cells"
+    return listed(phrases, "and") or "no cells"

@@ -119,7 +119,7 @@ class ByteCursor:
         FileError
             Where the word is not a natural number.
         """
-        if not (word.isascii() and word.isdigit() and len(word) < 19):
+        if not is_number(word):
             raise self.error(f"{label} is {quoted(word)} before {self.location}: expected a natural number")
         return int(word)
 
@@ -288,6 +288,11 @@ def read_text_bytes(path: Path) -> bytes:
             raise FileError(path, "holds bytes that are not text", "Check its suffix, or write the file again.")
         file.seek(0)
         return file.read().removeprefix(BOM_UTF8)
+
+
+def is_number(word: str) -> bool:
+    """Return True if a word is a natural number of at most 18 digits."""
+    return word.isascii() and word.isdigit() and len(word) < 19
 
 
 def quoted(word: str) -> str:

@@ -109,13 +109,6 @@ def _check_self_contained(path: Path, file: object) -> None:
     Soft links stay inside the file. A virtual dataset is refused even if its sources lie in the same file: no writer
     of these formats makes one, and a dataset that refers to itself crashes the library.
     """
-    problem = next((f"{_title(name)} {problem}" for name, problem in _external_links(path, file)), "")
-    if problem:
-        raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
-
-
-def _external_links(path: Path, file: object) -> Iterator[tuple[bytes, str]]:
-    """Yield the names of links that refer to another file, and how they do."""
     links: list[tuple[bytes, int]] = []  # without calls of the library, whose errors would be lost in its own call
     left = _MOST_NAMES
 
@@ -130,7 +123,7 @@ def _external_links(path: Path, file: object) -> Iterator[tuple[bytes, str]]:
         raise FileError(path, problem, "Write it with fewer levels of groups.")
     for name, kind in links:
         if problem := _external(file.id, name, kind):
-            yield name, problem
+            raise FileError(path, f"its {_title(name)} {problem}: no other file is opened", _ONE_FILE)
 
 
 def _external(group: object, name: bytes, kind: int) -> str:

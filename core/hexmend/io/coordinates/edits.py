@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -23,9 +24,9 @@ class Edits:
         The new texts.
     """
 
-    begin: np.ndarray
-    end: np.ndarray
-    texts: list[bytes]
+    begin: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+    end: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+    texts: list[bytes] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self.begin)
@@ -36,6 +37,11 @@ class Edits:
             return self
         order = np.argsort(self.begin, kind="stable")
         return Edits(self.begin[order], self.end[order], [self.texts[k] for k in order.tolist()])
+
+    def write(self, path: Path, data: bytes) -> None:
+        """Write a text with these parts replaced to a file."""
+        with open(path, "wb") as out:
+            out.writelines(edited(data, self))
 
 
 def edited(data: bytes, edits: Edits) -> Iterator[bytes | memoryview]:

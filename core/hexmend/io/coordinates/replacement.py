@@ -167,7 +167,8 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     if original.mesh.renumbered == "hexes":
         raise CoordinatesError(f"some hexes of {original.path.name} are numbered inside out")
     located = _located(original, format)
-    in_place = is_same_mesh(format, path, original.path)
+    is_same = format.place.is_same if format.place else is_same_file
+    in_place = is_same(path, original.path)
     turned = (_TURNED,) if original.mesh.renumbered else ()
     with atomic_files() as files:
         notes = located.write(files, path, mesh.points)
@@ -193,11 +194,6 @@ def _located(original: Original, format: Format) -> LocatedCoordinates:
     if (np.abs(points[different] - given[different]) > _ROUNDING * np.abs(given).max()).any():
         raise changed
     return located
-
-
-def is_same_mesh(format: Format, a: Path, b: Path) -> bool:
-    """Return True if two paths lead to one existing file or case."""
-    return format.place.is_same(a, b) if format.place else is_same_file(a, b)
 
 
 def is_same_file(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> bool:

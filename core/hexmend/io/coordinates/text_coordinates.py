@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits, edited
+from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.storage.atomic import AtomicFiles
 
@@ -112,22 +112,17 @@ class TextCoordinates:
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        with open(files.add(target), "wb") as out:
-            out.writelines(edited(self.data, self.edits(points)))
+        self.edits(points).write(files.add(target), self.data)
         return ()
 
     def edits(self, points: np.ndarray) -> Edits:
         """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
-        self._check(changed)
-        changed |= changed.any(axis=1)[:, None] & self.fields.absent
-        return self.fields.edits(changed, number_texts(points[changed], self.width))
-
-    def _check(self, changed: np.ndarray) -> None:
-        """Raise `CoordinatesError` unless the fields to be replaced hold the numbers that the reader has found."""
         found = parse_fields(self.data, self.fields.begin[changed], self.fields.end[changed])
         if found is None or not np.array_equal(found, self.points[changed], equal_nan=True):
             raise CoordinatesError("its layout is not one in which coordinates can be replaced")
+        changed |= changed.any(axis=1)[:, None] & self.fields.absent
+        return self.fields.edits(changed, number_texts(points[changed], self.width))
 
 
 def parse_fields(data: bytes, begin: np.ndarray, end: np.ndarray) -> np.ndarray | None:

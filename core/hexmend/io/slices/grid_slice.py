@@ -76,9 +76,5 @@ def _ranges(sizes: Sequence[int], part: int, count: int) -> list[slice]:
     """Rows of each file that are in a part, if all rows are counted through."""
     begins = np.concatenate([[0], np.cumsum(sizes)])
     low, high = (int(begins[-1]) * which // count for which in (part, part + 1))
-    return [
-        slice(max(low - begin, 0), max(min(high - begin, size), max(low - begin, 0), 0))
-        if low < begin + size and high > begin
-        else slice(0, 0)
-        for begin, size in zip(begins[:-1].tolist(), sizes, strict=True)
-    ]
+    bounds = np.clip(np.array([[low], [high]]) - begins[:-1], 0, sizes)
+    return [slice(*own) for own in bounds.T.tolist()]

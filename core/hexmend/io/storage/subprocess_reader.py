@@ -7,7 +7,7 @@ import pickle
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
@@ -16,14 +16,7 @@ from typing import IO, Any, NamedTuple
 
 from hexmend.errors import FileError
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.storage.file_progress import (
-    FileAction,
-    FileProgress,
-    file_operation,
-    report,
-    stage,
-    watch_files,
-)
+from hexmend.io.storage.file_progress import FileAction, FileProgress, file_operation, report, stage, watch_files
 from hexmend.terminal_text import printable
 
 #: Time limit of a reader in seconds, and further seconds for each megabyte of the file.
@@ -89,17 +82,40 @@ class Failure(NamedTuple):
 
 def _wait(process: subprocess.Popen, limit: float, answer: Path) -> None:
     """Wait for the subprocess and report its progress; it is killed after so many seconds, and on any exception."""
-    deadline = monotonic() + limit
     try:
-        while process.poll() is None:
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(_POLL)
-            if process.returncode is None and monotonic() > deadline:
-                raise subprocess.TimeoutExpired(process.args, limit)
-            report(_stored_share(_share_file(answer)))
+        if wait_for(process, limit, _POLL, lambda: report(_stored_share(_share_file(answer)))):
+            raise subprocess.TimeoutExpired(process.args, limit)
     except BaseException:
         process.kill()
         raise
+
+
+def wait_for(process: subprocess.Popen, seconds: float, interval: float, watch: Callable[[], object]) -> bool | None:
+    """Wait for the end of a process, and call `watch` at intervals meanwhile.
+
+    Parameters
+    ----------
+    process : Popen
+    seconds, interval : float
+        Time limit, and seconds between two calls.
+    watch : callable
+        A true result ends the waiting.
+
+    Returns
+    -------
+    bool or None
+        False if the process has ended, True if it is out of time, None if `watch` ended the waiting.
+    """
+    end = monotonic() + seconds
+    while True:
+        try:
+            process.wait(min(interval, max(0.0, end - monotonic())))
+            return False
+        except subprocess.TimeoutExpired:
+            if watch():
+                return None
+            if monotonic() >= end:
+                return True
 
 
 def _stored_share(path: Path) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from hexmend.errors import FileError
+from hexmend.terminal_text import listed
 
 
 def suffix_for(path: str | os.PathLike[str], label: str, known: Collection[str]) -> str:
@@ -42,6 +43,5 @@ def suffix_for(path: str | os.PathLike[str], label: str, known: Collection[str])
     suffix = path.suffix.lower()
     if suffix in known:
         return suffix
-    *others, last = [name for name in known if name]
-    listed = f"{', '.join(others)} or {last}" if others else last
-    raise FileError(path, f"{label} cannot be written as {suffix or 'a file without a suffix'}", f"Use {listed}.")
+    remedy = f"Use {listed([name for name in known if name], 'or')}."
+    raise FileError(path, f"{label} cannot be written as {suffix or 'a file without a suffix'}", remedy)

@@ -52,6 +52,8 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
         For a set that does not exist, sets of different size, and a node without a partner; the message says how far
         the nearest is.
     """
+    from scipy.spatial import cKDTree
+
     nodes, others = (np.unique(nodes_in_set(mesh, name)) for name in (one, other))
     if nodes.size != others.size:
         raise MeshError(
@@ -60,10 +62,10 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
     if not nodes.size or np.array_equal(nodes, others):
         raise MeshError(f"{one!r} and {other!r} are not periodic: they have the same nodes, or none")
     x, y = mesh.points[nodes], mesh.points[others]
-    fits = []
+    fits, tree = [], cKDTree(y)
     normals = _outward_area(mesh, nodes), _outward_area(mesh, others)
     for rotation, shift in _candidates(x, y, *normals):
-        partner, distance = _nearest(x @ rotation.T + shift, y)
+        distance, partner = tree.query(x @ rotation.T + shift)
         fits.append((rotation, partner, distance))
         if distance.max() <= MATCH_TOLERANCE * mesh.mean_edge_length:
             break
@@ -116,11 +118,3 @@ def smallest_rotation(one: np.ndarray, other: np.ndarray) -> np.ndarray:
         return np.eye(3)
     cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
     return np.eye(3) + cross + cross @ cross / (1 + cosine)
-
-
-def _nearest(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Index of the point of y (k, 3) nearest to each of x (k, 3), and its distance, (k,) each."""
-    from scipy.spatial import cKDTree
-
-    distance, index = cKDTree(y).query(x)
-    return index, distance

@@ -68,7 +68,9 @@ def two_dimensional_motion(mesh: Mesh) -> LinearMotion | None:
     one, other = np.unique(np.sort(nodes[~is_wedge], axis=1), axis=0).T
     for normal, rows in _directions(mesh, one, other):
         motion = motion.merge(_translated(one[rows], other[rows], normal, moves))
-    sides, nodes = _ascending(sides[is_wedge], nodes[is_wedge])
+    sides = sides[is_wedge]
+    order = np.argsort(sides, axis=1, kind="stable")  # the first side set of a pair comes first
+    sides, nodes = np.take_along_axis(sides, order, axis=1), np.take_along_axis(nodes[is_wedge], order, axis=1)
     for first, second in np.unique(sides, axis=0):
         rows = (sides == [first, second]).all(axis=1)
         own = np.unique(nodes[rows], axis=0)
@@ -114,12 +116,6 @@ def _pairs(mesh: Mesh, side: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndar
     edges = EDGES[4 * axis : 4 * axis + 4]
     sides = side[hexes, 2 * axis : 2 * axis + 2]
     return mesh.hexes[hexes][:, edges].reshape(-1, 2).astype(np.int64), np.repeat(sides, 4, axis=0)
-
-
-def _ascending(sides: np.ndarray, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Order the columns of pairs so that the first side set comes first."""
-    order = np.argsort(sides, axis=1, kind="stable")
-    return np.take_along_axis(sides, order, axis=1), np.take_along_axis(nodes, order, axis=1)
 
 
 def _directions(mesh: Mesh, one: np.ndarray, other: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:

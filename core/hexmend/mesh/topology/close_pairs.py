@@ -37,14 +37,10 @@ def close_pairs(points: np.ndarray, distance: float) -> np.ndarray:
         if not first.size:
             break
         if offset > _MAX_NEIGHBOURS:
-            return _pairs_by_tree(points, distance)
+            from scipy.spatial import cKDTree
+
+            return cKDTree(points).query_pairs(distance, output_type="ndarray")
         pairs = order[np.stack([first, first + offset], axis=1)]
         close = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1) <= distance
         found.append(pairs[close])
     return np.sort(np.concatenate(found), axis=1)
-
-
-def _pairs_by_tree(points: np.ndarray, distance: float) -> np.ndarray:
-    from scipy.spatial import cKDTree
-
-    return cKDTree(points).query_pairs(distance, output_type="ndarray")

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -19,18 +20,52 @@ from hexmend.kernels import faces, metrics
 from hexmend.mesh.edge_length import hex_lengths
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
+from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, as_points_and_hexes
 from hexmend.quality.corner_heights import least_heights
-from hexmend.quality.finite_volume.geometry import chunks, divide
-from hexmend.quality.finite_volume.hex_values import of_hexes, of_mesh
+from hexmend.quality.finite_volume.face_quality import face_quality, worst_of_hexes
+from hexmend.quality.finite_volume.geometry import cell_geometry, chunks, divide
 from hexmend.quality.measure import ElementQuality
 from hexmend.quality.mesh_quality import measure_against_target
 from hexmend.quality.metric import METRICS, MeshValues, Metric, Values
 from hexmend.quality.validity import jacobian_bounds
 
-#: Metrics that a kernel computes from points, hexes and arrays for its results: the kernel, the number of its results
-#: and the index of the metric's.
-_KERNELS: dict[str, tuple[Callable[..., None], int, int]] = {
+#: Fields of `FaceQuality`, and their better end: 1 if higher values are better, -1 if lower ones are.
+_BETTER = {"non_orthogonality": -1, "skewness": -1, "weight": 1, "volume_ratio": 1}
+
+#: Values of the mesh that was measured last, by its quality: all fields take hardly longer than one.
+_LAST: WeakKeyDictionary[ElementQuality, Mapping[str, np.ndarray]] = WeakKeyDictionary()
+
+
+def _faces_of_hexes(field: str, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of`; neighbours are those among the hexes."""
+    points, hexes = as_points_and_hexes(points, hexes)
+    return _face_values(points, hexes, quality, lambda: Topology(hexes, len(points)))[field]
+
+
+def _faces_of_mesh(field: str, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Return the worst values of a field of `FaceQuality`, for `Metric.of_mesh`, by the mesh's topology."""
+    return _face_values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
+
+
+def _face_values(
+    points: np.ndarray, hexes: np.ndarray, quality: ElementQuality, topology: Callable[[], Topology]
+) -> Mapping[str, np.ndarray]:
+    """Worst value over the faces of each hex, (m,) float64, by the field of `FaceQuality`."""
+    values = _LAST.get(quality)
+    if values is None:
+        found = face_quality(cell_geometry(points, hexes), hexes, topology().face_neighbours)
+        values = {name: worst_of_hexes(found, getattr(found, name), len(hexes), of) for name, of in _BETTER.items()}
+        _LAST.clear()
+        _LAST[quality] = values
+    return values
+
+
+#: Kernel that computes results from points, hexes and arrays for them, the number of its results, and an index of them.
+_KernelResult = tuple[Callable[..., None], int, int]
+
+#: Metrics that a kernel computes.
+_KERNELS: dict[str, _KernelResult] = {
     "min-angle": (faces.angles, 2, 0),
     "max-angle": (faces.angles, 2, 1),
     "aspect-ratio": (metrics.axes, 3, 0),
@@ -55,15 +90,10 @@ _FACE_FIELDS = {
 
 
 def _by_kernel(
-    kernel: Callable[..., None],
-    n_results: int,
-    index: int,
-    worst: float,
-    points: np.ndarray,
-    hexes: np.ndarray,
-    quality: ElementQuality,
+    result: _KernelResult, worst: float, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality
 ) -> np.ndarray:
     """Compute a kernel's result; NaN, of a hex so large that the squares of its lengths overflow, becomes `worst`."""
+    kernel, n_results, index = result
     points, hexes = as_points_and_hexes(points, hexes)
     values = np.empty((n_results, len(hexes)))
     kernel(points, hexes, *values)
@@ -75,7 +105,7 @@ def _jacobian(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) ->
     """Least of the centre's determinant and of sigma at the corners, the same that `ElementQuality.inverted` tests."""
     if len(quality.sigma) != len(hexes):
         raise MeshError(f"the quality is that of {len(quality.sigma)} hexes: expected that of the same {len(hexes)}")
-    return np.fmin(quality.sigma, _by_kernel(metrics.centre, 1, 0, -math.inf, points, hexes, quality))
+    return np.fmin(quality.sigma, _by_kernel((metrics.centre, 1, 0), -math.inf, points, hexes, quality))
 
 
 def _jacobian_ratio(bounds: np.ndarray) -> np.ndarray:
@@ -94,14 +124,6 @@ def _mid_node_offset(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
         offsets[part] = np.where(middles >= 0, divide(away, lengths, math.inf), 0.0).max(axis=1)
     return offsets
-
-
-def _aspect_against_given(ratios: np.ndarray) -> np.ndarray:
-    return divide(ratios.max(axis=1), ratios.min(axis=1), math.inf)
-
-
-def _size_against_target(ratios: np.ndarray) -> np.ndarray:
-    return np.cbrt(ratios).prod(axis=1)
 
 
 def _of_length_ratios(of: Callable[[np.ndarray], np.ndarray], mesh: Mesh, quality: ElementQuality) -> np.ndarray:
@@ -127,7 +149,7 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
     "time-step": (lambda points, hexes, quality: np.maximum(least_heights(points, hexes), 0.0), None),
     "aspect-against-given": (
         lambda points, hexes, quality: np.ones(len(hexes)),
-        partial(_of_length_ratios, _aspect_against_given),
+        partial(_of_length_ratios, lambda ratios: divide(ratios.max(axis=1), ratios.min(axis=1), math.inf)),
     ),
     "q-of-target": (
         lambda points, hexes, quality: quality.q,
@@ -135,16 +157,16 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
     ),
     "size-against-target": (
         lambda points, hexes, quality: np.ones(len(hexes)),
-        partial(_of_length_ratios, _size_against_target),
+        partial(_of_length_ratios, lambda ratios: np.cbrt(ratios).prod(axis=1)),
     ),
 }
 
 
 def _functions(name: str, worst: float) -> tuple[Values, MeshValues | None]:
     if name in _KERNELS:
-        return partial(_by_kernel, *_KERNELS[name], worst), None
+        return partial(_by_kernel, _KERNELS[name], worst), None
     if name in _FACE_FIELDS:
-        return partial(of_hexes, _FACE_FIELDS[name]), partial(of_mesh, _FACE_FIELDS[name])
+        return partial(_faces_of_hexes, _FACE_FIELDS[name]), partial(_faces_of_mesh, _FACE_FIELDS[name])
     return _OTHERS[name]
 
 

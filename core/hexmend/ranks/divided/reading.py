@@ -61,7 +61,8 @@ def divide_slices(
     check_nodes(ranks, at, places, points)
     node_data = dict(zip(piece.node_data, kept, strict=True))
     del places, data
-    hexes = _hexes(piece)
+    first = piece.start[:-1][piece.types == HEXAHEDRON]
+    hexes = piece.nodes[first[:, None] + np.arange(8)]
     owner, owners = _owners(ranks, directory, points, hexes)
     unused = owner == comm.size
     owner[unused] = comm.rank
@@ -82,12 +83,6 @@ def _by_node(directory: Directory, at: np.ndarray, rows: np.ndarray) -> np.ndarr
     ordered = np.zeros((directory.end - directory.begin, *rows.shape[1:]), rows.dtype)
     ordered[at] = rows
     return ordered
-
-
-def _hexes(piece: GridSlice) -> np.ndarray:
-    """The nodes of the hexes of a slice, (h, 8) int."""
-    first = piece.start[:-1][piece.types == HEXAHEDRON]
-    return piece.nodes[first[:, None] + np.arange(8)]
 
 
 def _owners(

@@ -1,7 +1,5 @@
 """Local optimisation by steepest descent: Algorithm 3.2 with A.2 and A.5."""
 
-from __future__ import annotations
-
 from hexmend.kernels import local
 from hexmend.smoothers.base import method
 from hexmend.smoothers.local.single_node import LocalDescent

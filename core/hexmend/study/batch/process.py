@@ -1,6 +1,8 @@
 """Task in its own process: if the process crashes, its row has the reason, and other tasks continue.
 
 Groups of processes: a process with all that it started is ended at once.
+
+Tasks on this machine: one for each core at a time, with equal shares of cores and memory.
 """
 
 from __future__ import annotations
@@ -11,13 +13,17 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import asdict
 from time import monotonic
 from typing import IO, Any
 
-from hexmend.io.storage.subprocess_reader import last_line
+from hexmend.io.storage.subprocess_reader import last_line, wait_for
+from hexmend.kernels import cores, cores_for
+from hexmend.run.memory import available
 from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
 
@@ -105,21 +111,10 @@ def run_task(
 
 def _wait(process: subprocess.Popen, request: str, seconds: float, cancelled: Callable[[], bool]) -> bool | None:
     """Wait for the end of the process. Return True if it is out of time, None if it was cancelled."""
-    end = monotonic() + seconds if seconds else float("inf")
-    try:
+    with suppress(OSError):  # it has ended already; its last line has the reason
         process.stdin.write(request.encode() + b"\n")
         process.stdin.flush()
-    except OSError:  # it has ended already; its last line has the reason
-        pass
-    while True:
-        try:
-            process.wait(min(POLL_SECONDS, max(0.0, end - monotonic())))
-            return False
-        except subprocess.TimeoutExpired:
-            if cancelled():
-                return None
-            if monotonic() >= end:
-                return True
+    return wait_for(process, seconds or float("inf"), POLL_SECONDS, cancelled)
 
 
 def _answer(status: int, output: IO[bytes], errors: IO[bytes]) -> dict[str, Any]:
@@ -141,3 +136,30 @@ def _ending(status: int) -> str:
         return f"with status {status}"
     name = signal.Signals(-status).name if -status in set(signal.Signals) else f"signal {-status}"
     return f"by {name}" + (", as the system ends what takes all memory" if name == "SIGKILL" else "")
+
+
+def local_answers(tasks: Sequence[Task], jobs: int = 0) -> Generator[tuple[Task, dict[str, Any]]]:
+    """Run tasks in processes of this machine, and yield each with its answer when it is done.
+
+    Closing the generator ends running tasks. Unless their number is set, tasks share the cores as threads: a single
+    task has all of them.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+    jobs : int
+        Most tasks at a time; 0 for the number of cores that this process may use.
+    """
+    jobs = max(1, min(jobs or cores(), len(tasks)))
+    memory_mb, threads, ending = (available() or 0) // jobs >> 20, cores_for(jobs), threading.Event()
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            running = {
+                pool.submit(run_task, task, memory_mb=memory_mb, threads=threads, cancelled=ending.is_set): task
+                for task in tasks
+            }
+            for future in as_completed(list(running)):
+                yield running.pop(future), future.result()
+        finally:
+            ending.set()
+            pool.shutdown(cancel_futures=True)

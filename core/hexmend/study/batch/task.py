@@ -82,16 +82,13 @@ def content_hash(path: Path) -> str:
     if placed is None:
         check_readable(path, "a mesh file")
     try:
-        if placed is not None:
-            every = [_digest(part) for part in placed.place.parts(path)]
-            return hashlib.sha256("".join(every).encode()).hexdigest()
-        digest = _digest(path)
-        if path.suffix.lower() == ".pvtu":
-            every = [digest, *(_digest(piece) for piece in piece_paths(path) if piece.is_file())]
-            digest = hashlib.sha256("".join(every).encode()).hexdigest()
+        parts = [path] if placed is None else list(placed.place.parts(path))
+        if placed is None and path.suffix.lower() == ".pvtu":
+            parts += [piece for piece in piece_paths(path) if piece.is_file()]
+        digests = [_digest(part) for part in parts]
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
-    return digest
+    return digests[0] if len(digests) == 1 else hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
 def _digest(path: Path) -> str:

@@ -17,7 +17,7 @@ from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import measure, objective, summarise
 from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
-from hexmend.study.batch.case import Case, read_case
+from hexmend.study.batch.case import read_case
 from hexmend.study.batch.process import end_group
 from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task, content_hash
@@ -45,15 +45,19 @@ def run(task: Task, version: str) -> dict[str, Any]:
     try:
         _check_environment(task, version)
         case = read_case(task.case)
-        mesh = _mesh(task)
+        mesh = read(task.mesh)
+        mesh = mesh.sliding_on(read_surface(task.surface)) if task.surface else mesh
         figures = _figures(mesh)
         row |= {key: figures.pop(key) for key in ("hexes", "nodes", "free_nodes")}
         row |= {f"{key}_before": value for key, value in figures.items()}
-        result, more = _run_case(case, mesh)
-        row |= {f"{key}_after": value for key, value in _figures(result).items() if key in figures}
+        result = smooth(with_rules(mesh, case.rules) if case.rules else mesh, case.smoother, case.stop, progress=False)
+        more = {key: getattr(result, key) for key in ("message", "iterations", "kept", "seconds", "setup_seconds")}
+        more |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
+        more["boundary_distance"] = result.surface.max_percent_of_diagonal if result.surface else 0.0
+        row |= {f"{key}_after": value for key, value in _figures(result.mesh).items() if key in figures}
         row |= more
         if task.output:
-            write(task.output, result)
+            write(task.output, result.mesh)
             row["output"] = task.output
         status, reason = Status.DONE, ""
     except _Mismatch as error:
@@ -84,24 +88,10 @@ def _check_environment(task: Task, version: str) -> None:
             raise _Mismatch(f"Where the task ran: {error}") from None
 
 
-def _mesh(task: Task) -> Mesh:
-    mesh = read(task.mesh)
-    return mesh.sliding_on(read_surface(task.surface)) if task.surface else mesh
-
-
 def _status_of(task: Task, error: FileError) -> Status:
     if isinstance(error.__context__, MemoryError):
         return Status.MEMORY
     return Status.LOST if task.output and error.path == Path(task.output) else Status.UNREADABLE
-
-
-def _run_case(case: Case, mesh: Mesh) -> tuple[Mesh, dict[str, Any]]:
-    """Run a method or recipe; return the result and columns of the row."""
-    result = smooth(with_rules(mesh, case.rules) if case.rules else mesh, case.smoother, case.stop, progress=False)
-    more = {key: getattr(result, key) for key in ("message", "iterations", "kept", "seconds", "setup_seconds")}
-    more |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
-    more["boundary_distance"] = result.surface.max_percent_of_diagonal if result.surface else 0.0
-    return result.mesh, more
 
 
 def _figures(mesh: Mesh) -> dict[str, Any]:

@@ -7,15 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-from hexmend.cli.arguments.run_arguments import (
-    check_element_targets,
-    check_memory,
-    given_limits,
-    given_rules,
-    method_settings,
-    stopping_criteria,
-    with_surface,
-)
+from hexmend.cli.arguments import run_arguments
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
@@ -36,13 +28,14 @@ def run(args: argparse.Namespace) -> int:
     Returns 3 if all methods failed, 128 and the signal's number if interrupted.
     """
     names = split_names(args.methods) if args.methods else list(METHODS)
-    settings = method_settings(args, [name for name in names if not name.endswith(".toml")])
-    smoothers, limits = parse_methods(names, settings, given_limits(args)), stopping_criteria(args)
-    mesh = with_rules(read(args.mesh), rules := given_rules(args))
+    settings = run_arguments.method_settings(args, [name for name in names if not name.endswith(".toml")])
+    smoothers = parse_methods(names, settings, run_arguments.given_limits(args))
+    limits = run_arguments.stopping_criteria(args)
+    mesh = with_rules(read(args.mesh), rules := run_arguments.given_rules(args))
     smoothers = [one.with_more_rules(rules, args.interfaces) if isinstance(one, Recipe) else one for one in smoothers]
-    check_element_targets(smoothers, mesh)
-    check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
-    sliding = with_surface(args, mesh, *smoothers)
+    run_arguments.check_element_targets(smoothers, mesh)
+    run_arguments.check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
+    sliding = run_arguments.with_surface(args, mesh, *smoothers)
     folder = output_folder(args.output)
     suffix, original = copy_suffix(args.mesh), Original(Path(args.mesh), mesh)
     if args.write_meshes:

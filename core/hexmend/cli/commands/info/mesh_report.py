@@ -15,14 +15,7 @@ from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import (
-    ElementQuality,
-    SecondOrderSummary,
-    measure,
-    metric_statistics,
-    summarise,
-    summarise_second_order,
-)
+from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
 from hexmend.terminal_text import count_phrase, printable
 
@@ -49,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     locking = _locking(mesh, quality)
     checks = _check(mesh, args.solver, quality)
-    findings = _examine(mesh, args.doctor, second_order)
+    findings = _examine(mesh, args.doctor, second_order is not None and second_order.invalid > 0)
     judgement = Judgement.of(args.mesh, quality, locking, findings, checks, second_order)
     if args.json:
         from hexmend.report.records import to_json  # not loaded for a report in words
@@ -98,12 +91,10 @@ def _materials_record(mesh: Mesh) -> dict[str, Any]:
     return {"materials": materials, "interface_nodes": int(np.count_nonzero(mesh.materials.interface_nodes))}
 
 
-def _examine(mesh: Mesh, all_searches: bool, second_order: SecondOrderSummary | None) -> tuple[Finding, ...]:
+def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ...]:
     """Return the doctor's findings; those of mid-nodes also in a quick search where a Jacobian is not positive."""
     findings = examine(mesh, quick=not all_searches)
-    if all_searches or second_order is None or not second_order.invalid:
-        return findings
-    bent = PROBLEMS["mid-nodes"].find(mesh)
+    bent = PROBLEMS["mid-nodes"].find(mesh) if is_bent and not all_searches else None
     return findings if bent is None else (*findings, bent)
 
 

@@ -70,7 +70,10 @@ class DividedSource:
         if files is None:
             return None
         try:
-            mesh = _divided(args, method, files, comm)
+            piece, fields = agreed(comm, lambda: _slice(args, method, files, comm)), files[0].field_data
+            mesh = agreed(comm, lambda: divide_slices(comm, piece, fields, args.as_is), ParameterError)
+            if args.as_is:
+                agreed(comm, lambda: check_orientation(mesh))
             if method.keeps_layers and may_have_layers(mesh.part):
                 raise NotDivisibleError("it may have boundary layers, which --layers off does not keep")
         except NotDivisibleError as error:
@@ -122,14 +125,6 @@ def _suits(args: argparse.Namespace, method: Smoother) -> bool:
     default_target = getattr(method, "target", AUTO) == AUTO and not named_walls(getattr(method, "layers", ""))
     fixed = not method.slides and args.surface is None and motion_rules(args) == MotionRules()
     return default_target and fixed and writable_format(Path(args.output), Path(args.mesh)).name == "pvtu"
-
-
-def _divided(args: argparse.Namespace, method: Smoother, files: Sequence[SlicedFile], comm: MPI.Comm) -> DividedMesh:
-    piece, fields = agreed(comm, lambda: _slice(args, method, files, comm)), files[0].field_data
-    mesh = agreed(comm, lambda: divide_slices(comm, piece, fields, args.as_is), ParameterError)
-    if args.as_is:
-        agreed(comm, lambda: check_orientation(mesh))
-    return mesh
 
 
 def _slice(args: argparse.Namespace, method: Smoother, files: Sequence[SlicedFile], comm: MPI.Comm) -> GridSlice:

@@ -11,14 +11,8 @@ from importlib import import_module
 import numpy as np
 
 from hexmend.advice import advise
+from hexmend.cli.arguments import run_arguments
 from hexmend.cli.arguments.options import DEFAULT_RINGS
-from hexmend.cli.arguments.run_arguments import (
-    check_memory,
-    check_targets,
-    method_and_limits,
-    motion_rules,
-    with_surface,
-)
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
@@ -46,10 +40,10 @@ def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still invalid."""
     if _is_one_of_several_ranks():
         return _run_on_ranks(args)
-    method, limits = method_and_limits(args)
+    method, limits = run_arguments.method_and_limits(args)
     writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
     checkpoints = Checkpoints(args.output, args.checkpoint)
-    check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
+    run_arguments.check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     rings = _rings(args)
     mesh = read(args.mesh, as_is=args.as_is)
     output = MeshOutput(args.output, args.mesh, mesh, args.rewrite)
@@ -57,15 +51,15 @@ def run(args: argparse.Namespace) -> int:
     print_problems(args.mesh, mesh)
     output.warn_of_losses(mesh)
     pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
-    mesh = with_rules(mesh, motion_rules(args))
+    mesh = with_rules(mesh, run_arguments.motion_rules(args))
     if args.ridges:
         mesh = with_curves_of_file(mesh, args.ridges)
     if isinstance(method, Recipe):  # the mesh has the recipe's rules now, changed by the options
         method = replace(method, rules=MotionRules())
     if args.only:
         mesh = fix_outside(mesh, hexes_in_set(mesh, args.only), rings)
-    check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
-    smoothing = iterate(with_surface(args, mesh, method), method, limits)
+    run_arguments.check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
+    smoothing = iterate(run_arguments.with_surface(args, mesh, method), method, limits)
     if smoothing.layers:
         print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
     elif args.layers == "keep":

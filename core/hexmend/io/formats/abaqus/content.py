@@ -56,7 +56,9 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         raise deck.error("has no *NODE", check_suffix("an Abaqus file"))
     points = np.concatenate([instance.points() for instance in instances])
     elements = _Elements(deck, instances, node_ids)
-    unread = _unread(instances)
+    unread = Counter()  # number of elements of each type that is not read
+    for card in (card for instance in instances for card in instance.part.element_cards if card.kind is None):
+        unread[card.type] += len(card.ids)
     if unread:
         notes.append(unread_note(f"{sum(unread.values()):,} elements of other types ({some_names(sorted(unread))})"))
 
@@ -148,14 +150,6 @@ class _Elements:
                 hexes[chosen] = self.row[members[chosen]] + first
                 first += self.counts[kind]
         return hexes
-
-
-def _unread(instances: list[Instance]) -> dict[str, int]:
-    """Number of elements of each type that is not read."""
-    counts = Counter()
-    for card in (card for instance in instances for card in instance.part.element_cards if card.kind is None):
-        counts[card.type] += len(card.ids)
-    return counts
 
 
 def _lookups(

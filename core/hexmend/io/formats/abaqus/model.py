@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hexmend.io.base.content import node_count
-from hexmend.io.base.cursor import quoted
+from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import lookup
 from hexmend.io.base.remedies import DAMAGED
@@ -19,11 +19,6 @@ from hexmend.io.formats.abaqus.deck import Card, Deck
 
 #: Levels of sets that are members of sets.
 _MAX_DEPTH = 100
-
-
-def is_number(word: str) -> bool:
-    """Return True for a natural number that fits into 64 bits."""
-    return word.isascii() and word.isdigit() and len(word) < 19
 
 
 def name_key(name: str) -> str:
@@ -176,6 +171,23 @@ class ElementCard:
     ids: np.ndarray
     nodes: np.ndarray
 
+    @classmethod
+    def of(cls, deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
+        """Elements of a card whose type is known.
+
+        Raises
+        ------
+        FileError
+            Unless its numbers are those of whole elements.
+        """
+        numbers = card.deck.numbers(card, "*ELEMENT", np.int64)
+        width = 1 + node_count(kind)
+        if numbers.size % width:
+            problem = f"*ELEMENT of type {quoted(type)} in {card.place} holds {numbers.size} numbers"
+            raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
+        rows = numbers.reshape(-1, width)
+        return cls(type, kind, rows[:, 0].copy(), rows[:, 1:])
+
 
 @dataclass(eq=False)
 class Part:
@@ -270,20 +282,3 @@ def placement(deck: Deck, lines: list[list[str]]) -> tuple[np.ndarray, np.ndarra
         rotation = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross  # Rodrigues's formula
         translation = rotation @ (translation - begin) + begin  # the translation comes before the rotation
     return translation, rotation
-
-
-def element_card(deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
-    """Elements of a card whose type is known.
-
-    Raises
-    ------
-    FileError
-        Unless its numbers are those of whole elements.
-    """
-    numbers = card.deck.numbers(card, "*ELEMENT", np.int64)
-    width = 1 + node_count(kind)
-    if numbers.size % width:
-        problem = f"*ELEMENT of type {quoted(type)} in {card.place} holds {numbers.size} numbers"
-        raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
-    rows = numbers.reshape(-1, width)
-    return ElementCard(type, kind, rows[:, 0].copy(), rows[:, 1:])

@@ -9,23 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import quoted
+from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
 from hexmend.io.formats.abaqus.includes import read_deck
-from hexmend.io.formats.abaqus.model import (
-    ElementCard,
-    Instance,
-    Part,
-    SetDefinition,
-    element_card,
-    is_number,
-    name_key,
-    placement,
-    unquoted,
-)
+from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, SetDefinition, name_key, placement, unquoted
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
@@ -140,7 +130,7 @@ class _Reader:
         if kind is None:
             elements = ElementCard(type, None, self._element_ids(card), np.zeros((0, 0), np.int64))
         else:
-            elements = element_card(self.deck, card, type, kind)
+            elements = ElementCard.of(self.deck, card, type, kind)
         self.part.element_cards.append(elements)
         if "ELSET" in card.options:
             _definition(self.part.element_sets, card.options["ELSET"]).ids.append(elements.ids)

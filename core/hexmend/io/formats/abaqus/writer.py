@@ -11,7 +11,7 @@ from typing import TextIO
 import numpy as np
 
 from hexmend.io.base import numbering
-from hexmend.io.base.capabilities import altered_names, make_unique
+from hexmend.io.base.capabilities import altered_set_names, make_unique
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_sets, from_mesh, from_vtk_order
 from hexmend.io.formats.abaqus.content import TYPE, TYPES
 from hexmend.io.formats.abaqus.elements import DEFAULT_TYPES, ORDER, SIDE_OF_FACE, kind_of
@@ -83,10 +83,7 @@ def _type_indices(block: Block, types: list[str]) -> np.ndarray:
 
 def limitations(mesh: Mesh) -> list[str]:
     """List the ids and names of a mesh that a file cannot hold, in words."""
-    cells = [name for one in mesh.cells for name in one.sets]
-    kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)
-    titles = {name: title for names in kinds for name, title in make_unique(names, _clean).items()}
-    return numbering.unsupported_ids(mesh) + altered_names(titles)
+    return numbering.unsupported_ids(mesh) + altered_set_names(mesh, _clean)
 
 
 def _titles(sets: Iterable[str]) -> dict[str, str]:

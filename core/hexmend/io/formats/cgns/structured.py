@@ -7,16 +7,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.formats.cgns.zone import (
-    CGNSNode,
-    Interface,
-    Zone,
-    add_members,
-    boundary_conditions,
-    new_zone,
-    solution_arrays,
-    zone_size,
-)
+from hexmend.io.formats.cgns.zone import CGNSNode, Interface, Zone, add_members, new_zone, zone_size
 from hexmend.mesh.orientation import MIRRORED_CORNERS, MIRRORED_FACES
 from hexmend.quality import corner_determinants
 
@@ -39,8 +30,8 @@ def read_structured(node: CGNSNode) -> Zone:
     zone = new_zone(node, tuple(count[::-1].tolist()))
     zone.shape = count
     hexes, mirrored = structured_hexes(zone.points, count)
-    zone.blocks.append(Block("hex", hexes, solution_arrays(node, "CellCenter", tuple((count - 1)[::-1].tolist()))))
-    for name, condition in boundary_conditions(node):
+    zone.blocks.append(Block("hex", hexes, node.solution_arrays("CellCenter", tuple((count - 1)[::-1].tolist()))))
+    for name, condition in node.boundary_conditions():
         _add_condition(zone, name, condition, count)
     if mirrored:
         for rows in zone.side_sets.values():

@@ -15,16 +15,7 @@ from hexmend.io.base.numbering import check_numbers, lookup
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.section import FACE_OF_NUMBER, NFACE, NGON, CellGroup, CGNSSection
-from hexmend.io.formats.cgns.zone import (
-    CGNSNode,
-    Interface,
-    Zone,
-    add_members,
-    boundary_conditions,
-    new_zone,
-    solution_arrays,
-    zone_size,
-)
+from hexmend.io.formats.cgns.zone import CGNSNode, Interface, Zone, add_members, new_zone, zone_size
 from hexmend.terminal_text import count_phrase
 
 
@@ -112,8 +103,8 @@ def read_unstructured(node: CGNSNode) -> Zone:
         if section.parents is not None:
             add_members(zone.side_sets, section.name, _sides(section, np.arange(len(section)), hexes))
     numbers_of = [group.numbers for group in groups]
-    _add_cell_data(zone, numbers_of, solution_arrays(node, "CellCenter", (n_cells,)), n_cells)
-    for name, condition in boundary_conditions(node):
+    _add_cell_data(zone, numbers_of, node.solution_arrays("CellCenter", (n_cells,)), n_cells)
+    for name, condition in node.boundary_conditions():
         _add_condition(zone, name, condition, sections, numbers_of, hexes)
     for connectivity in node.grandchildren("ZoneGridConnectivity_t", "GridConnectivity_t"):
         _add_interface(zone, connectivity)

@@ -33,7 +33,6 @@ class CGNSNode:
 
     def __init__(self, path: Path, group: object, name: str = ""):
         self.path, self.name = path, name
-        self.label = text_of(group.attrs.get("label", b""))
         self._group = self._resolve_link(group)
 
     def _resolve_link(self, group: object) -> object:
@@ -95,10 +94,20 @@ class CGNSNode:
         """Data of the node as a string."""
         return text_of(self.value().tobytes())
 
+    def boundary_conditions(self) -> list[tuple[str, CGNSNode]]:
+        """Boundary conditions of a zone by name, or by the name of their family."""
+        found = self.grandchildren("ZoneBC_t", "BC_t")
+        return [(child.text_of("FamilyName_t") or child.name, child) for child in found]
 
-def boundary_conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
-    """Boundary conditions of a zone by name, or by the name of their family."""
-    return [(child.text_of("FamilyName_t") or child.name, child) for child in node.grandchildren("ZoneBC_t", "BC_t")]
+    def solution_arrays(self, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+        """Arrays of a zone's solutions at "Vertex" or "CellCenter", flat; of one name, the last counts."""
+        found: dict[str, np.ndarray] = {}
+        for solution in self.children("FlowSolution_t", "DiscreteData_t"):
+            if solution.text_of("GridLocation_t", "Vertex") == location:
+                rind = rind_planes(solution, len(shape))
+                for array in solution.children("DataArray_t"):
+                    found[array.name] = without_rind(array, shape, rind).ravel()
+        return found
 
 
 class Interface(NamedTuple):
@@ -173,7 +182,7 @@ def zone_size(node: CGNSNode, index_dimension: int) -> np.ndarray:
 def new_zone(node: CGNSNode, shape: tuple[int, ...]) -> Zone:
     """Zone with its name, family, coordinates and node data; `shape` is as of `coordinates`."""
     zone = Zone(node.name, node.text_of("FamilyName_t"), coordinates(node, shape))
-    zone.node_data = solution_arrays(node, "Vertex", shape)
+    zone.node_data = node.solution_arrays("Vertex", shape)
     return zone
 
 
@@ -206,17 +215,6 @@ def coordinates(node: CGNSNode, shape: tuple[int, ...]) -> np.ndarray:
     points = np.zeros((columns[0].size, 3))
     points[:, axes] = np.column_stack(columns)
     return points
-
-
-def solution_arrays(node: CGNSNode, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-    """Arrays of a zone's solutions at "Vertex" or "CellCenter", flat; of one name, the last counts."""
-    found: dict[str, np.ndarray] = {}
-    for solution in node.children("FlowSolution_t", "DiscreteData_t"):
-        if solution.text_of("GridLocation_t", "Vertex") == location:
-            rind = rind_planes(solution, len(shape))
-            for array in solution.children("DataArray_t"):
-                found[array.name] = without_rind(array, shape, rind).ravel()
-    return found
 
 
 def without_rind(node: CGNSNode, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:

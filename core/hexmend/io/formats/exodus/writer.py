@@ -9,7 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.capabilities import altered_names, make_unique, non_numeric_data, rounded_integers
+from hexmend.io.base.capabilities import (
+    altered_names,
+    altered_set_names,
+    make_unique,
+    non_numeric_data,
+    rounded_integers,
+)
 from hexmend.io.base.content import ID, Block, concatenate_sets, from_vtk_order, hex_blocks, unused_name
 from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
 from hexmend.io.base.numbering import fit_64_bits
@@ -55,17 +61,14 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def limitations(mesh: Mesh) -> list[str]:
     """List the data and names of a mesh that a file cannot hold as they are, in words."""
-    left, titles = rounded_integers(mesh) + non_numeric_data(mesh), {}
+    left = rounded_integers(mesh) + non_numeric_data(mesh)
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
     for label, data in (("nodes", [mesh.node_data]), ("elements", cell_data)):
         if any(not fit_64_bits(np.asarray(one[ID])) for one in data if ID in one):
             left.append(f"ids of {label} (some of 2^63 and above)")
     left += altered_names(column_titles([_node_data(mesh)]), "point data")
     left += altered_names(column_titles(cell_data), "cell data")
-    sets = [name for one in mesh.cells for name in one.sets]
-    for names in (mesh.node_sets, [*mesh.hex_sets, *sets], mesh.side_sets):
-        titles |= make_unique(names, clean_name)
-    return left + altered_names(titles)
+    return left + altered_set_names(mesh, clean_name)
 
 
 def _node_data(mesh: Mesh) -> dict[str, np.ndarray]:

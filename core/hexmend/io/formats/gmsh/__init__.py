@@ -3,8 +3,6 @@
 *Gmsh Reference Manual*, "MSH file format" (version 4.1) and "Legacy formats" (versions 1 and 2).
 """
 
-from __future__ import annotations
-
 from hexmend.io.base.format import Capability, deferred, register
 
 _LOST = {Capability.NODE_SETS, Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.FIELD_DATA}
@@ -21,5 +19,5 @@ register(
     stored_names=frozenset({"gmsh:physical"}),
     limitations=deferred("hexmend.io.formats.gmsh.writer:limitations"),
     matches=lambda head: b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD"),
-    locate=deferred("hexmend.io.formats.gmsh.coordinates:locate"),
+    locate=deferred("hexmend.io.formats.gmsh.reader:locate"),
 )

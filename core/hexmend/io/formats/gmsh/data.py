@@ -7,8 +7,7 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.base.decimals import format_rows
-from hexmend.io.base.decimals import row_chunks as chunks
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.formats.gmsh.sections import DataSection, Sections
 from hexmend.io.storage.file_progress import advance
 
@@ -92,7 +91,7 @@ class SectionWriter:
     def rows(self, values: np.ndarray) -> None:
         """Write rows of floats, or of whole numbers (u8)."""
         code = "<f8" if values.dtype.kind == "f" else "<u8"
-        for part in chunks(len(values)):
+        for part in row_chunks(len(values)):
             rows = values[part]
             self.file.write(rows.astype(code).tobytes() if self.binary else format_rows(rows))
             advance(rows.size, self.total)
@@ -143,7 +142,7 @@ def write_data(out: SectionWriter, key: str, name: str, tags: list[np.ndarray], 
         packed["tag"], packed["values"] = numbers, values
         out.file.write(packed.tobytes() + b"\n")
     else:
-        for part in chunks(len(values)):
+        for part in row_chunks(len(values)):
             texts = format_rows(values[part]).split(b"\n")
             out.file.write(b"".join(b"%d %s\n" % pair for pair in zip(numbers[part].tolist(), texts, strict=False)))
     out.file.write(b"$End%s\n" % key[1:].encode())

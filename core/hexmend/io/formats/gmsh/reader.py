@@ -1,4 +1,7 @@
-"""Reader of Gmsh's format, versions 1, 2 and 4.1, text and (except version 1) binary, section by section."""
+"""Reader of Gmsh's format, versions 1, 2 and 4.1, text and (except version 1) binary, section by section.
+
+Coordinates of a file in its section $Nodes.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,15 @@ import struct
 from codecs import BOM_UTF8
 from pathlib import Path
 
+import numpy as np
+
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
-from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, BinaryCoordinates, BinaryPiece
+from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words, word_ranges
+from hexmend.io.formats.gmsh import version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh, with_periodic_surfaces
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
@@ -18,7 +26,7 @@ from hexmend.mesh.mesh import Mesh
 
 #: Readers of sections by version and keyword.
 READERS = {
-    1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
+    1: {"$NOD": version_2.read_nod, "$ELM": version_2.read_elm},
     2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
     | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": version_4.read_periodic},
@@ -115,3 +123,35 @@ def skip_section(source: ByteCursor, key: str) -> None:
     if at < 0:
         raise source.error(f"{quoted(key)} ends without {quoted(end.decode())}")
     source.pos = at + len(end)
+
+
+def locate(path: Path) -> LocatedCoordinates:
+    """Find the coordinates of a file that the reader has accepted."""
+    source, sections = ByteCursor(path, path.read_bytes()), Sections()
+    version, order = 1, ""
+    while not source.at_end:
+        key, begin = source.next_line(), source.pos
+        if key == "$MeshFormat":
+            version, order = read_format(source)
+        elif key in ("$NOD", "$Nodes"):
+            READERS[version][key](source, order, sections)
+            return _binary(source, order, sections) if order else _text(source, begin, sections)
+        else:
+            skip_section(source, key)
+    raise CoordinatesError("it has no section $Nodes")
+
+
+def _text(source: ByteCursor, begin: int, sections: Sections) -> TextCoordinates:
+    """Coordinates among the words of a text from an offset on."""
+    first, last = word_ranges(source.data, begin, source.pos)
+    rows = [(at + stride * np.arange(count))[:, None] + np.arange(3) for at, count, stride in sections.places]
+    words = np.concatenate([np.zeros((0, 3), np.int64), *rows])
+    return TextCoordinates(source.data, sections.points, fields_of_words(first[words], last[words]))
+
+
+def _binary(source: ByteCursor, order: str, sections: Sections) -> BinaryCoordinates:
+    pieces, first, dtype = [], 0, np.dtype(f"{order}f8")
+    for at, count, stride in sections.places:
+        pieces.append(BinaryPiece(at, dtype, (stride, dtype.itemsize), slice(first, first + count), ALL_COLUMNS))
+        first += count
+    return BinaryCoordinates(source.path, sections.points, tuple(pieces))

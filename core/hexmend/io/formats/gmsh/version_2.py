@@ -1,4 +1,4 @@
-"""Sections of Gmsh's format of version 2, text and binary."""
+"""Sections of Gmsh's format of version 2, text and binary, and of version 1, which is text only."""
 
 from __future__ import annotations
 
@@ -129,3 +129,32 @@ def _integers(source: ByteCursor, line: str, count: int) -> list[int]:
     if len(words) != count or not all(word.lstrip("-").isdigit() and len(word) < 19 for word in words):
         raise source.error(f"$Periodic has the line {line[:40]!r} before {source.location}: expected {count} numbers")
     return [int(word) for word in words]
+
+
+def read_nod(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $NOD: a count, then the tag and the coordinates of each node."""
+    read_text_nodes(source, "$NOD", b"$ENDNOD", sections)
+
+
+def read_elm(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $ELM: a count, then tag, type, physical group, entity, number of nodes and nodes of each element."""
+    values = source.read_numbers_until("$ELM", b"$ENDELM", np.int64)
+    count = int(values[0]) if values.size else 0
+    starts, at, view, widths = [], 1, memoryview(values), {}
+    while at + 4 < values.size:
+        type, width = view[at + 1], view[at + 4]
+        if type not in widths:
+            widths[type] = nodes_per_element(source.path, type)
+        if width != widths[type]:
+            raise source.error(f"$ELM: element {view[at]} of type {type} has {width} nodes: expected {widths[type]}")
+        starts.append(at)
+        at += 5 + width
+    if len(starts) != count or at != values.size:
+        raise source.error(f"$ELM holds {len(starts)} whole elements of {count}")
+    begins = np.array(starts, np.int64)
+    types = values[begins + 1]
+    sections.elements = []
+    for type in np.unique(types).tolist():
+        rows = begins[types == type]
+        nodes = values[rows[:, None] + np.arange(5, 5 + widths[type])]
+        sections.elements.append(ElementBlock(type, values[rows], nodes, values[rows + 2]))

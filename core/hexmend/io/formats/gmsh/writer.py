@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
@@ -19,6 +18,7 @@ from hexmend.mesh.mesh import Mesh
 
 #: Tags of the elements of each block, or of their entities, (k,) int64 each.
 _Tags = list[np.ndarray]
+_Groups = dict[tuple[int, int], list[int]]
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -34,7 +34,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     content = from_mesh(mesh)
     node_tags = node_ids(dict(content.node_data), len(content.points))
     element_tags = element_ids(content.blocks)
-    entities = _entities(content.blocks, mesh.field_data.get(PHYSICAL_NAMES))
+    entities, names, of_block = _entities(content.blocks, mesh.field_data.get(PHYSICAL_NAMES))
     with open(path, "wb") as file:
         total = content.points.size + sum(block.nodes.size for block in content.blocks)
         out = SectionWriter(file, encoding == "binary", total)
@@ -42,10 +42,10 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         if out.binary:
             file.write(np.array([1], "<i4").tobytes() + b"\n")
         file.write(b"$EndMeshFormat\n")
-        _write_physical_names(file, entities.names)
-        _write_entities(out, entities.groups, content.points)
-        _write_nodes(out, content.points, node_tags, next(tag for dim, tag in entities.groups if dim == 3))
-        _write_elements(out, content.blocks, entities.of_block, element_tags, node_tags)
+        _write_physical_names(file, names)
+        _write_entities(out, entities, content.points)
+        _write_nodes(out, content.points, node_tags, next(tag for dim, tag in entities if dim == 3))
+        _write_elements(out, content.blocks, of_block, element_tags, node_tags)
         node_data, cell_data = with_marks(mesh), _arrays_by_shape(content.blocks)
         titles = make_unique(node_data, data_title)
         for name, values in node_data.items():
@@ -101,29 +101,20 @@ def _arrays_by_shape(blocks: tuple[Block, ...]) -> dict[str, dict[int, np.ndarra
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class _Entities:
-    """Entities of a mesh, one for each combination of sets.
+def _entities(blocks: tuple[Block, ...], physical_names: object) -> tuple[_Groups, dict[tuple[int, int], str], _Tags]:
+    """Entities of blocks, one for each combination of sets; groups keep the numbers of the lines of $PhysicalNames.
 
-    Parameters
-    ----------
-    groups : dict of (dimension, tag) to list of int
+    Returns
+    -------
+    entities : dict of (dimension, tag) to list of int
         Physical groups of each entity.
     names : dict of (dimension, number) to str
         Names of the physical groups.
     of_block : list of (k,) int64
         Tag of the entity of each element, for each block.
     """
-
-    groups: dict[tuple[int, int], list[int]]
-    names: dict[tuple[int, int], str]
-    of_block: list[np.ndarray]
-
-
-def _entities(blocks: tuple[Block, ...], physical_names: object) -> _Entities:
-    """Entities of blocks; groups keep the numbers of the lines of $PhysicalNames."""
     numbers = _group_numbers(blocks, physical_names)
-    entities: dict[tuple[int, int], list[int]] = {}
+    entities: _Groups = {}
     tags: dict[tuple[int, tuple[int, ...]], int] = {}
     of_block = []
     for block in blocks:
@@ -141,7 +132,7 @@ def _entities(blocks: tuple[Block, ...], physical_names: object) -> _Entities:
     names = {
         (dim, number): titles[name] for (dim, name), number in numbers.items() if unnamed_group_number(name) != number
     }
-    return _Entities(entities, names, of_block)
+    return entities, names, of_block
 
 
 def _group_numbers(blocks: tuple[Block, ...], physical_names: object) -> dict[tuple[int, str], int]:
@@ -165,7 +156,7 @@ def _write_physical_names(file: BinaryIO, names: Mapping[tuple[int, int], str]) 
     file.write(b"$EndPhysicalNames\n")
 
 
-def _write_entities(out: SectionWriter, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
+def _write_entities(out: SectionWriter, entities: _Groups, points: np.ndarray) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
     out.file.write(b"$Entities\n")
     out.integers(([sum(dim == d for dim, _ in entities) for d in range(4)], "u8"))

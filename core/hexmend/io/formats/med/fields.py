@@ -116,7 +116,7 @@ def write_fields(file: Mapping, mesh: str, data: Fields) -> None:
     data : mapping of str to mapping of str to (count, ...) array
         Arrays by name, for each entity.
     """
-    for (title, code, width), arrays in _arrays_of_fields(data).items():
+    for (_, code, width), (title, arrays) in titled_fields(data).items():
         field = file.require_group("CHA").create_group(title, track_order=True)
         blank = np.bytes_(" " * _COMPONENT_SIZE * width)
         field.attrs.update({"MAI": np.bytes_(mesh), "NOM": blank, "UNI": blank, "UNT": np.bytes_(" ")})
@@ -140,25 +140,29 @@ def write_fields(file: Mapping, mesh: str, data: Fields) -> None:
             profile["CO"] = values.reshape(len(values), width).T.ravel().astype(code)
 
 
-def field_titles(data: Fields) -> dict[tuple[str, str, int], str]:
-    """Names under which fields are written, all different, by name, type code and width of the arrays.
+def titled_fields(data: Fields) -> dict[tuple[str, str, int], tuple[str, dict[str, np.ndarray]]]:
+    """Fields by name, type code and width of the arrays: the name of each in the file, all different, and its arrays.
 
     Names are stripped, without "/", and cut to 64 bytes. Arrays of one name but another type or width become a field of
     their own.
     """
     titles = make_unique((name for arrays in data.values() for name in arrays), _clean_name)
     used = set(titles.values())
-    found: dict[tuple[str, str, int], str] = {}
-    for arrays in data.values():
+    found: dict[tuple[str, str, int], tuple[str, dict[str, np.ndarray]]] = {}
+    for entity, arrays in data.items():
         for name, values in arrays.items():
-            key = _key(name, values)
-            if key is not None and key not in found:
+            code = type_code(values)
+            if code is None:
+                continue
+            key = (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
+            if key not in found:
                 title = titles[name]
                 if any(other == name for other, _, _ in found):
                     numbered = (_clean_name(name, f"_{k}") for k in count(2))
                     title = next(title for title in numbered if title not in used)
-                found[key] = title
+                found[key] = title, {}
                 used.add(title)
+            found[key][1][entity] = values
     return found
 
 
@@ -172,23 +176,6 @@ def type_code(values: np.ndarray) -> str | None:
     else:
         return None
     return code if all(values.shape[1:]) else None
-
-
-def _arrays_of_fields(data: Fields) -> dict[tuple[str, str, int], dict[str, np.ndarray]]:
-    """Arrays by entity, for the title, type code and width of each field."""
-    titles, found = field_titles(data), {}
-    for entity, arrays in data.items():
-        for name, values in arrays.items():
-            key = _key(name, values)
-            if key is not None:
-                found.setdefault((titles[key], *key[1:]), {})[entity] = values
-    return found
-
-
-def _key(name: str, values: np.ndarray) -> tuple[str, str, int] | None:
-    """Name, type code and width of an array; None where MED has no type for it."""
-    code = type_code(values)
-    return None if code is None else (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
 
 
 def _clean_name(name: str, end: str) -> str:

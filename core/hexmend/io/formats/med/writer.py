@@ -14,7 +14,7 @@ from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.hdf5 import writable_file
 from hexmend.io.base.numbering import fit_64_bits, set_combinations
 from hexmend.io.formats.med.arrays import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND, encode_names, group_titles
-from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, field_titles, type_code, write_fields
+from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, titled_fields, type_code, write_fields
 from hexmend.mesh.mesh import Mesh
 
 
@@ -82,7 +82,7 @@ def limitations(mesh: Mesh) -> list[str]:
     for label, tables in (("point data", [fields["NOE"]]), ("cell data", of_cells)):
         odd = sorted({name for arrays in tables for name, values in arrays.items() if type_code(values) is None})
         left += [f"{label} that are not numbers ({', '.join(odd)})"] if odd else []
-    titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
+    titles = {name: title for (name, _, _), (title, _) in titled_fields(fields).items() if title != name}
     return left + altered_names(group_titles(_set_names(content))) + altered_names(titles, "data")
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import quoted
+from hexmend.io.base.cursor import is_number, quoted
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
@@ -85,7 +85,7 @@ class Cards:
 
     def _integer(self, word: str, at: int) -> int:
         digits = word[1:] if word[0] in "+-" else word
-        if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
+        if not is_number(digits):
             raise self.error(at, f"holds {quoted(word)}: expected a whole number")
         return int(word)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
 from hexmend.io.base.content import node_count
 
@@ -31,22 +30,15 @@ ORDER = {"hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15], "wedge15": [*ran
 PROPERTY_SET = re.compile(r"property ([1-9][0-9]{0,7})\Z")
 
 
-class ElementLayout(NamedTuple):
-    """Position of the nodes in an element card, and the kinds of first and second order with their node counts."""
+def element_layout(card: str) -> tuple[int, str, str, int, int]:
+    """Layout of an element card: position of its nodes, kinds of first and second order, and their node counts.
 
-    first_node: int
-    linear: str
-    quadratic: str
-    n_corners: int
-    n_nodes: int
-
-
-def element_layout(card: str) -> ElementLayout:
-    """Layout of an element card; without a second order, its two node counts are equal."""
+    Without a second order the two node counts are equal.
+    """
     linear, quadratic = KINDS_OF_CARD[card]
     n_corners = node_count(linear)
     first = 1 if card == "PLOTEL" else 2  # PLOTEL has no property
-    return ElementLayout(first, linear, quadratic, n_corners, node_count(quadratic) if quadratic else n_corners)
+    return first, linear, quadratic, n_corners, node_count(quadratic) if quadratic else n_corners
 
 
 def real_field(value: float) -> str:

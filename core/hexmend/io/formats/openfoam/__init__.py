@@ -51,6 +51,6 @@ register(
         {Capability.HEX_SETS, Capability.NODE_SETS, Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.OTHER_CELLS}
     ),
     limitations=deferred("hexmend.io.formats.openfoam.writer:limitations"),
-    locate=deferred("hexmend.io.formats.openfoam.coordinates:locate"),
+    locate=deferred("hexmend.io.formats.openfoam.writer:locate"),
     place=CasePlace(),
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import quoted
+from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.formats.openfoam.case import CaseFiles, existing_part
 from hexmend.io.formats.openfoam.foam_file import FoamFile, Value
 from hexmend.io.formats.openfoam.lists import find_list, read_labels
@@ -197,6 +197,6 @@ def _patch(file: FoamFile, name: str, entries: Mapping[str, Value]) -> Patch:
 
 
 def _count(file: FoamFile, word: str, label: str) -> int:
-    if not (word.isascii() and word.isdigit() and len(word) < 19):
+    if not is_number(word):
         raise file.error(f"{label} is {quoted(word)}: expected a natural number")
     return int(word)

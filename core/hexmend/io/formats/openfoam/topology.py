@@ -186,11 +186,10 @@ def poly_topology(path: Path, mesh: Mesh) -> PolyTopology:
     inner = np.flatnonzero(count == 2)
     inner = inner[np.lexsort((other[inner], owner[inner]))]
     patches, zones = _patches(mesh, content, loops, count == 1, face_at)
-    outer = [faces for _, faces in patches]
-    every = np.concatenate([inner, *outer])
+    every = np.concatenate([inner, *patches.values()])
     number = np.empty(n_faces, np.int64)
     number[every] = np.arange(n_faces)
-    starts = len(inner) + np.cumsum([0, *map(len, outer)])
+    starts = len(inner) + np.cumsum([0, *map(len, patches.values())])
     cells_by_set = concatenate_sets([block.sets for block in volumes], [len(block) for block in volumes])
     turned = np.where(loops[:, 3:] < 0, np.column_stack([loops[:, 2::-1], loops[:, 3:]]), loops[:, ::-1])
     titles = zone_titles(mesh)
@@ -220,8 +219,8 @@ def _cells_of_faces(face: np.ndarray, cell: np.ndarray, count: np.ndarray) -> tu
 
 
 def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_at: np.ndarray):
-    """Faces of each patch by its name, as pairs, and of each zone: faces and hexes."""
-    taken, patches, zones = ~is_outer, [], {}
+    """Faces of each patch by its name, and of each zone: faces and hexes."""
+    taken, patches, zones = ~is_outer, {}, {}
     for name in sorted(mesh.side_sets, key=lambda name: name not in mesh.side_set_types):
         rows = np.asarray(mesh.side_sets[name], np.int64).reshape(-1, 2)
         faces, at = np.unique(face_at[rows[:, 0], rows[:, 1]], return_index=True)
@@ -231,7 +230,7 @@ def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_
             zones[name] = faces, rows[at, 0]
         else:
             taken[faces] = True
-            patches.append((name, faces))
+            patches[name] = faces
     lower = [block for block in content.blocks if block.kind in ("triangle", "quad") and block.sets]
     keys = {tuple(sorted(loops[face].tolist())): face for face in np.flatnonzero(~taken)} if lower else {}
     for block in lower:
@@ -247,23 +246,18 @@ def _patches(mesh: Mesh, content, loops: np.ndarray, is_outer: np.ndarray, face_
     return patches, zones
 
 
-def _extend(patches: list[tuple[str, np.ndarray]], name: str, faces: np.ndarray) -> None:
+def _extend(patches: dict[str, np.ndarray], name: str, faces: np.ndarray) -> None:
     """Add faces to the patch of a name, or a new patch."""
-    for k, (known, own) in enumerate(patches):
-        if known == name:
-            patches[k] = name, np.concatenate([own, faces])
-            return
-    if faces.size:
-        patches.append((name, faces))
+    if name in patches or faces.size:
+        patches[name] = np.concatenate([patches.get(name, faces[:0]), faces])
 
 
-def _described(mesh: Mesh, patches: list[tuple[str, np.ndarray]], starts: np.ndarray) -> list[Patch]:
+def _described(mesh: Mesh, patches: dict[str, np.ndarray], starts: np.ndarray) -> list[Patch]:
     titles, described = patch_titles(mesh), []
     partner = {first: second for pair in mesh.periodic_pairs for first, second in (pair, pair[::-1])}
-    names = {name for name, _ in patches}
-    for (name, faces), start in zip(patches, starts.tolist(), strict=False):
+    for (name, faces), start in zip(patches.items(), starts.tolist(), strict=False):
         kind = mesh.side_set_types.get(name, "patch")
-        other = partner.get(name, "") if kind == "cyclic" and partner.get(name) in names else ""
+        other = partner.get(name, "") if kind == "cyclic" and partner.get(name) in patches else ""
         kind = kind if kind in _TYPES or other else "patch"
         described.append(Patch(titles[name], kind, start, len(faces), titles.get(other, "")))
     return described

@@ -10,7 +10,7 @@ Writing of VTKHDF, version 2.2: one part without compression, as fast as the dis
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,14 +67,15 @@ def names_not_kept(mesh: Mesh) -> list[str]:
     groups = with_marks(mesh), mesh.hex_data, mesh.field_data, *(cells.data for cells in mesh.cells)
     sets = mesh.node_sets, mesh.hex_sets, *(cells.sets for cells in mesh.cells)
     names = (name for group in (*groups, *sets) for name in group)
-    return non_numeric_data(mesh) + altered_names(_titles(names), "data and sets")
+    return non_numeric_data(mesh) + altered_names(make_unique(names, _title), "data and sets")
 
 
 def _write_arrays(path: Path, group: object, arrays: Mapping[str, object]) -> None:
     """Write arrays of numbers, of at most two dimensions, and lists of texts; VTK cannot read empty ones."""
     import h5py
 
-    titles, text = _titles(arrays), h5py.string_dtype("ascii")  # as VTK reads it, though the bytes are UTF-8
+    titles = make_unique(arrays, _title)
+    text = h5py.string_dtype("ascii")  # as VTK reads it, though the bytes are UTF-8
     for name, values in arrays.items():
         values = writable(path, name, values)
         if isinstance(values, list):
@@ -85,12 +86,8 @@ def _write_arrays(path: Path, group: object, arrays: Mapping[str, object]) -> No
             group[titles[name]] = values if values.ndim < 3 else values.reshape(len(values), -1)
 
 
-def _titles(names: Iterable[str]) -> dict[str, str]:
-    """Names of arrays as HDF5 allows them: without slashes and zeros, and not of dots alone."""
-    return make_unique(names, _title)
-
-
 def _title(name: str, suffix: str) -> str:
+    """Name of an array as HDF5 allows it: without slashes and zeros, and not of dots alone."""
     text = name.replace("/", "_").replace("\0", "").encode("utf-8", "replace").decode()
     return (text if text.strip(".") else f"_{text}") + suffix
 

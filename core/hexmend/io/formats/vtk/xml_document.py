@@ -14,6 +14,7 @@ from xml.parsers import expat
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.cursor import is_number
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED, check_suffix
 from hexmend.terminal_text import printable
@@ -113,7 +114,7 @@ class Document:
     def count(self, element: XMLElement, key: str) -> int:
         """Convert an attribute to a count; 0 where it is missing."""
         word = element.get(key, "0").strip()
-        if not (word.isascii() and word.isdigit() and len(word) < 19):
+        if not is_number(word):
             raise self.error(f"{key} of {element.name} is {word[:20]!r}: expected a natural number")
         return int(word)
 
