@@ -61,6 +61,18 @@ def terminal() -> Iterator[None]:
         yield
 
 
+@pytest.fixture
+def run_command(capsys) -> Callable[..., object]:
+    """Run a command of `hexmend` in this process, which ends with `status`; what it printed since the last: `out` and `err`."""
+    from hexmend.cli.main import main
+
+    def run(*words: object, status: int = 0):
+        assert main([str(word) for word in words]) == status
+        return capsys.readouterr()
+
+    return run
+
+
 @pytest.fixture(scope="session")
 def real_mesh() -> Callable[[str], Path]:
     """The path of one of the real meshes; the test is skipped where they are absent."""

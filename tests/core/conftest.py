@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from hexmend import Mesh, read
 from hexmend.gallery import GALLERY, make
-from hexmend.io import read
-from hexmend.mesh.mesh import Mesh
 
 
 @pytest.fixture(scope="session")

@@ -28,6 +28,20 @@ def scrambled(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     return mesh.with_points(mesh.points + shift * mesh.free[:, None])
 
 
+def displaced(mesh: Mesh, nodes: object, by: object) -> Mesh:
+    """Move some nodes of a mesh by a vector, or by one each."""
+    points = mesh.points.copy()
+    points[nodes] += by
+    return mesh.with_points(points)
+
+
+def placed(mesh: Mesh, nodes: object, at: object) -> Mesh:
+    """Put some nodes of a mesh elsewhere."""
+    points = mesh.points.copy()
+    points[nodes] = at
+    return mesh.with_points(points)
+
+
 def invalid_inside() -> Mesh:
     """Make a grid of 27 hexes one of which is invalid between positive corners; its boundary is that of a cube."""
     return scrambled(grid(3), 0.7, 847)

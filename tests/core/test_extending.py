@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 import hexmend
-from hexmend import gallery, io
+from hexmend import Mesh, gallery, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.examples import ROOT, example
 

@@ -5,8 +5,7 @@ import sys
 
 import pytest
 
-from hexmend import gallery, io
-from hexmend.quality import measure
+from hexmend import gallery, io, measure
 
 #: Loaded for a few commands alone, and how long it takes.
 HEAVY = {

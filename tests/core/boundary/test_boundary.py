@@ -5,11 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Cells, Mesh, read, write
 from hexmend.boundary import NodeClass, boundary_of, classify
 from hexmend.gallery import GALLERY, make
-from hexmend.io import read, write
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from tests.core.boundary.solids import ball, wavy
 from tests.core.grids import grid
 

@@ -9,11 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.mend.surfaces import refined
-from hexmend import kernels
+from hexmend import Mesh, MeshError, kernels
 from hexmend.boundary import ClosestPointTrees, PartitionedSurface, boundary_of
 from hexmend.boundary.closest_point import ClosestPointCache
-from hexmend.errors import MeshError
-from hexmend.mesh.mesh import Mesh
 from tests.core.boundary.solids import ball, cylinder
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid

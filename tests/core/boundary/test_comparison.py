@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend import Cells, MeshError
 from hexmend.boundary import SkinSurface, boundary_of, mutual_distances, surface_change
-from hexmend.errors import MeshError
-from hexmend.mesh.cells import Cells
 from tests.core.boundary.solids import cylinder, wavy
 from tests.core.boundary.test_surface import brute
 from tests.core.grids import grid

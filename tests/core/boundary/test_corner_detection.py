@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
+from hexmend import METHODS, StoppingCriteria, smooth
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of
 from hexmend.boundary.feature_edges.corner_detection import bend_corners
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
+from hexmend import Mesh, smooth
 from hexmend.boundary import boundary_of
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
-from hexmend.run import smooth
 from tests.core.boundary.solids import ball
 from tests.core.grids import grid
 

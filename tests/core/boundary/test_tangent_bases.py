@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import SlidingBoundary
-from hexmend.boundary.classification import NodeClass
+from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.gallery import make
 
 

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
+from hexmend import ParameterError, read, write
 from hexmend.cli.commands.smooth import checkpoint
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.main import main
-from hexmend.errors import ParameterError
 from hexmend.gallery import make
-from hexmend.io import read, write
 
 MESH = make("cube", size=8)
 
@@ -63,7 +62,7 @@ def test_a_file_that_is_there_already_is_never_overwritten_nor_removed(tmp_path)
     assert not (tmp_path / "out.checkpoint-3.vtu").exists()
 
 
-def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monkeypatch, capsys):
+def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monkeypatch, run_command):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
     write(given, make("five-side", size=200, scramble=0.2))
 
@@ -71,6 +70,8 @@ def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monk
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(checkpoint, "write", full)
-    assert main(["smooth", str(given), "-o", str(out), "--checkpoint", "1e-9"]) == 0
-    assert "no checkpoint was written, and the run continues" in capsys.readouterr().err
+    assert (
+        "no checkpoint was written, and the run continues"
+        in run_command("smooth", given, "-o", out, "--checkpoint", "1e-9").err
+    )
     assert out.exists()

@@ -20,21 +20,18 @@ def said(capsys):
     return lines[0]
 
 
-def test_info_prints_json_with_the_agreed_keys(mesh, capsys):
-    assert main(["info", str(mesh), "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)
+def test_info_prints_json_with_the_agreed_keys(mesh, run_command):
+    figures = json.loads(run_command("info", mesh, "--json").out)
     assert list(figures) == [*SUMMARY, "fit", "judgement", "next"]
     assert {key: figures[key] for key in SUMMARY} == summarise(io.read(mesh)).to_dict()
 
 
-def test_info_adds_every_metric_on_demand(mesh, capsys):
-    assert main(["info", str(mesh), "--metrics", "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)
+def test_info_adds_every_metric_on_demand(mesh, run_command):
+    figures = json.loads(run_command("info", mesh, "--metrics", "--json").out)
     assert list(figures) == [*SUMMARY, "metrics", "fit", "judgement", "next"]
     assert figures["metrics"] == {name: spread.to_dict() for name, spread in metric_statistics(io.read(mesh)).items()}
     assert figures["metrics"]["q"]["min"] == figures["q_min"]
-    assert main(["info", str(mesh), "--metrics"]) == 0
-    table = capsys.readouterr().out
+    table = run_command("info", mesh, "--metrics").out
     assert all(f" {name} " in table for name in METRICS)
 
 
@@ -57,9 +54,8 @@ def test_smooth_says_by_status_4_that_hexes_are_still_inverted(tmp_path):
     assert out.exists()
 
 
-def test_methods_as_json_follow_the_declarations(capsys):
-    assert main(["methods", "--json"]) == 0
-    methods = json.loads(capsys.readouterr().out)
+def test_methods_as_json_follow_the_declarations(run_command):
+    methods = json.loads(run_command("methods", "--json").out)
     assert {"laplacian", "smart-laplacian", "local-sd"} <= {one["name"] for one in methods}
     for one in methods:
         assert set(one) == {"name", "title", "help", "source", "parameters"}
@@ -101,9 +97,8 @@ def test_what_cannot_be_read_is_status_3_and_one_line(command, tmp_path, capsys)
     assert "missing.vtk" in said(capsys)
 
 
-def test_help_lists_every_command(capsys):
-    assert main(["--help"]) == 0
-    text = capsys.readouterr().out
+def test_help_lists_every_command(run_command):
+    text = run_command("--help").out
     for name in commands():
         assert name in text
     assert main(["--version"]) == 0

@@ -5,27 +5,21 @@ import shlex
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import MotionRules, Recipe, io, summarise, write_recipe
 from hexmend.cli.main import main
 from hexmend.gallery import make
-from hexmend.mesh.rules import MotionRules
-from hexmend.quality import summarise
-from hexmend.run.recipe import Recipe
-from hexmend.run.recipe_files import write_recipe
 from tests.core.boundary.solids import ball, slid
-from tests.core.grids import grid, invalid_inside
+from tests.core.grids import displaced, grid, invalid_inside
 
 
 def folded(n: int = 5):
     """A grid with the nodes of an inner square folded over; sets name them, their hexes, and what lies around."""
     mesh = grid(n)
     middle = np.flatnonzero((np.abs(mesh.points - n / 2) < 0.6).all(axis=1))
-    points = mesh.points.copy()
-    points[middle[:4]] += [0, 0, 1.4]
     far = np.flatnonzero((mesh.points == 1).all(axis=1))
     around = np.flatnonzero(np.isin(mesh.hexes, middle).any(axis=1))
     sets = {"middle": middle, "far": far, "-odd name": far}
-    return mesh.with_points(points).replace(node_sets=sets, hex_sets={"some": around[:1]})
+    return displaced(mesh, middle[:4], [0, 0, 1.4]).replace(node_sets=sets, hex_sets={"some": around[:1]})
 
 
 RUNS = {
@@ -113,11 +107,10 @@ def test_a_part_is_kept_or_made_larger(tmp_path, capsys):
         (["--only", "some", "--rings", "-1"], "--rings -1 is out of bounds: expected a number of at least 0"),
     ],
 )
-def test_rings_are_of_a_part_of_the_mesh(words, said, tmp_path, capsys):
+def test_rings_are_of_a_part_of_the_mesh(words, said, tmp_path, run_command):
     path, out = tmp_path / "mesh.vtu", tmp_path / "out.vtu"
     io.write(path, folded())
-    assert main(["smooth", str(path), "-o", str(out), *words]) == 2
-    assert said in capsys.readouterr().err
+    assert said in run_command("smooth", path, "-o", out, *words, status=2).err
     assert not out.exists()
 
 

@@ -18,9 +18,8 @@ def kershaw(tmp_path):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_a_table_and_a_verdict_are_printed(kershaw, solver, capsys):
-    assert main(["info", str(kershaw), "--for", solver]) == 0
-    printed = capsys.readouterr().out
+def test_a_table_and_a_verdict_are_printed(kershaw, solver, run_command):
+    printed = run_command("info", kershaw, "--for", solver).out
     declared = SOLVERS[solver]
     assert f"{declared.title}: " in printed
     assert declared.omitted in printed
@@ -28,17 +27,15 @@ def test_a_table_and_a_verdict_are_printed(kershaw, solver, capsys):
     assert declared.checks[0].name in printed
 
 
-def test_json_has_the_checks(kershaw, capsys):
-    assert main(["info", str(kershaw), "--for", "OpenFOAM", "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
+def test_json_has_the_checks(kershaw, run_command):
+    answer = json.loads(run_command("info", kershaw, "--for", "OpenFOAM", "--json").out)
     first = answer["checks"][0]
     assert first["name"] == "non-orthogonality"
     assert first["limit"] == 70
     assert first["value"] == pytest.approx(79.59, abs=0.01)
     assert first["verdict"] == "warning"
     assert answer["verdict"] == "failed"  # skewness
-    assert main(["info", str(kershaw), "--json"]) == 0
-    assert "checks" not in json.loads(capsys.readouterr().out)
+    assert "checks" not in json.loads(run_command("info", kershaw, "--json").out)
 
 
 def test_an_unknown_solver_is_told_before_the_mesh_is_read(tmp_path, capsys):

@@ -6,10 +6,8 @@ from shlex import quote
 import numpy as np
 import pytest
 
-from hexmend import gallery, io
+from hexmend import Mesh, gallery, io, measure
 from hexmend.cli.main import main
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from tests.core.doctor.faulty_meshes import bent
 
 
@@ -32,7 +30,7 @@ def test_a_good_mesh_is_fit(tmp_path, capsys):
     assert record["fit"] is True
 
 
-def test_inverted_hexes_are_counted_and_the_command_mends_them(tmp_path, capsys):
+def test_inverted_hexes_are_counted_and_the_command_mends_them(tmp_path, capsys, run_command):
     path, mesh = tmp_path / "in 1.vtu", gallery.make("cube", size=125, scramble=0.5)
     inverted = int(measure(mesh.points, mesh.hexes).inverted.sum())
     line, record = ended(path, mesh, capsys)
@@ -40,10 +38,8 @@ def test_inverted_hexes_are_counted_and_the_command_mends_them(tmp_path, capsys)
     assert line.startswith(f"Not fit for solving: {inverted} of 125 hexes ")
     assert (record["fit"], record["next"]) == (False, f"hexmend smooth {quote(str(path))} -o OUT")
     out = tmp_path / "out.vtu"
-    assert main(["smooth", str(path), "-o", str(out)]) == 0
-    capsys.readouterr()
-    assert main(["info", str(out), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["fit"] is True
+    run_command("smooth", path, "-o", out)
+    assert json.loads(run_command("info", out, "--json").out)["fit"] is True
 
 
 def test_a_flat_mesh_is_poor(tmp_path, capsys):
@@ -74,13 +70,12 @@ def test_parts_that_are_not_connected_may_be_meant_so(tmp_path, capsys):
     assert record["fit"] is True
 
 
-def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, capsys):
+def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, capsys, run_command):
     path, out, repaired = tmp_path / "bent.vtu", tmp_path / "out.vtu", tmp_path / "repaired.vtu"
     line, record = ended(path, bent(inside=True), capsys)
     assert line == f"To be repaired before solving: mid nodes. Next: hexmend repair {quote(str(path))} -o OUT"
     assert record["fit"] is False
-    assert main(["smooth", str(path), "-o", str(out)]) == 4
-    last = capsys.readouterr().out.splitlines()[-1]
+    last = run_command("smooth", path, "-o", out, status=4).out.splitlines()[-1]
     assert last.startswith("Not fit for solving: 4 hexes of second order have sound corners, but a Jacobian that is")
     assert last.endswith(f"Next: hexmend repair {quote(str(out))} -o OUT --only mid-nodes")
     assert main(["repair", str(out), "-o", str(repaired), "--only", "mid-nodes"]) == 0

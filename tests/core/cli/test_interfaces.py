@@ -5,10 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import io, read_recipe, smooth
 from hexmend.cli.main import main
-from hexmend.run import smooth
-from hexmend.run.recipe_files import read_recipe
 from tests.core.grids import grid, scrambled
 
 CUBE = grid(4)
@@ -91,7 +89,9 @@ def test_options_replace_the_interfaces_of_a_recipe(path, tmp_path):
     np.testing.assert_array_equal(again.mesh.points, after.points)
 
 
-def test_an_unknown_set_is_an_error_that_lists_the_sets(path, capsys):
-    assert main(["smooth", str(path), "-o", str(path.with_name("out.vtu")), "--slide", "nowhere"]) == 3
-    assert "there is no set 'nowhere': there are 'floor', 'roof', 'low', 'high'" in capsys.readouterr().err
+def test_an_unknown_set_is_an_error_that_lists_the_sets(path, run_command):
+    assert (
+        "there is no set 'nowhere': there are 'floor', 'roof', 'low', 'high'"
+        in run_command("smooth", path, "-o", path.with_name("out.vtu"), "--slide", "nowhere", status=3).err
+    )
     assert not path.with_name("out.vtu").exists()

@@ -5,7 +5,6 @@ import json
 import pytest
 
 from hexmend import gallery, io
-from hexmend.cli.main import main
 
 
 @pytest.fixture
@@ -15,21 +14,18 @@ def cylinder(tmp_path):
     return str(path)
 
 
-def test_info_lists_layers(cylinder, capsys):
-    assert main(["info", cylinder]) == 0
-    assert "Layers at 'wall 1': 20 on " in capsys.readouterr().out
-    assert main(["info", cylinder, "--json"]) == 0
-    (wall,) = json.loads(capsys.readouterr().out)["layers"]
+def test_info_lists_layers(cylinder, run_command):
+    assert "Layers at 'wall 1': 20 on " in run_command("info", cylinder).out
+    (wall,) = json.loads(run_command("info", cylinder, "--json").out)["layers"]
     assert wall["wall"] == "wall 1"
     assert wall["first_height_mean"] == pytest.approx(1e-4)
     assert wall["growth"] == pytest.approx(1.2)
     assert wall["angle_max"] == pytest.approx(0, abs=1e-3)
 
 
-def test_smooth_keeps_layers_and_says_so(cylinder, tmp_path, capsys):
+def test_smooth_keeps_layers_and_says_so(cylinder, tmp_path, run_command):
     report = tmp_path / "report.json"
-    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), "--json", str(report)]) == 0
-    printed = capsys.readouterr()
+    printed = run_command("smooth", cylinder, "-o", tmp_path / "out.vtu", "--json", report)
     assert "Boundary layers at 'wall 1' are kept." in printed.err
     assert "Layers at 'wall 1' (20 layers on " in printed.out
     (row,) = [line.split() for line in printed.out.splitlines() if "q of target min" in line]
@@ -41,9 +37,8 @@ def test_smooth_keeps_layers_and_says_so(cylinder, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("options", [["--target", "ideal"], ["--layers", "free"], ["--layers", "off"]])
-def test_smooth_says_that_layers_are_lost(cylinder, tmp_path, capsys, options):
-    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), "--goal", "shape", *options]) == 0
-    printed = capsys.readouterr()
+def test_smooth_says_that_layers_are_lost(cylinder, tmp_path, run_command, options):
+    printed = run_command("smooth", cylinder, "-o", tmp_path / "out.vtu", "--goal", "shape", *options)
     assert "Boundary layers at 'wall 1' are not kept." in printed.err
     assert "The layers at 'wall 1' lose their grading: first height 0.0001 → " in printed.out
     assert "--target given-shape keeps them." in printed.out
@@ -60,18 +55,16 @@ def test_smooth_says_that_layers_are_lost(cylinder, tmp_path, capsys, options):
     (["--target", "0"], "target '0' is 0 at hex 0"),
     (["--layers", "keep", "--method", "getme"], "--layers keep: there are no targets, which keep layers, in getme"),
 ])  # fmt: skip
-def test_what_is_wrong_is_said_before_the_run(cylinder, tmp_path, capsys, options, complaint):
-    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), *options]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+def test_what_is_wrong_is_said_before_the_run(cylinder, tmp_path, run_command, options, complaint):
+    (line,) = run_command("smooth", cylinder, "-o", tmp_path / "out.vtu", *options, status=2).err.splitlines()
     assert complaint in line
     assert not (tmp_path / "out.vtu").exists()
 
 
-def test_options_without_effect_are_named(tmp_path, capsys):
+def test_options_without_effect_are_named(tmp_path, run_command):
     path = tmp_path / "cube.vtu"
     io.write(path, gallery.make("cube", size=27))
     options = ["--layers", "keep", "--interfaces", "slide"]
-    assert main(["smooth", str(path), "-o", str(tmp_path / "out.vtu"), *options]) == 0
-    printed = capsys.readouterr().err
+    printed = run_command("smooth", path, "-o", tmp_path / "out.vtu", *options).err
     assert "--layers keep has no effect: no boundary layers were found." in printed
     assert "--interfaces slide has no effect: the mesh has one material." in printed

@@ -8,7 +8,6 @@ import sys
 import pytest
 
 from hexmend import io
-from hexmend.cli.main import main
 from tests.core.grids import grid
 
 
@@ -29,18 +28,21 @@ WRITING = {
 
 
 @pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
-def test_a_folder_cannot_be_written(words, mesh, capsys):
-    assert main([*words, "."]) == 3
-    assert capsys.readouterr().err.startswith("hexmend: .: is a folder: expected the name of a file to write.")
+def test_a_folder_cannot_be_written(words, mesh, run_command):
+    assert run_command(*words, ".", status=3).err.startswith(
+        "hexmend: .: is a folder: expected the name of a file to write."
+    )
     assert os.listdir() == [mesh]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows lets few users make links")
 @pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
-def test_a_link_to_itself_cannot_be_written(words, mesh, capsys):
+def test_a_link_to_itself_cannot_be_written(words, mesh, run_command):
     os.symlink("loop.vtu", "loop.vtu")
-    assert main([*words, "loop.vtu"]) == 3
-    assert "loop.vtu: is a link to itself. Remove it, or choose another name." in capsys.readouterr().err
+    assert (
+        "loop.vtu: is a link to itself. Remove it, or choose another name."
+        in run_command(*words, "loop.vtu", status=3).err
+    )
     assert sorted(os.listdir()) == ["loop.vtu", mesh]
 
 
@@ -63,9 +65,8 @@ def test_a_named_pipe_is_not_waited_for(words, mesh):
         ["study", "recipe.toml", "mesh.vtu", "--scheduler", ""],
     ],
 )
-def test_empty_words_are_refused(words, mesh, capsys):
-    assert main(words) == 2
-    assert "is empty: expected a value." in capsys.readouterr().err
+def test_empty_words_are_refused(words, mesh, run_command):
+    assert "is empty: expected a value." in run_command(*words, status=2).err
     assert os.listdir() == [mesh]
 
 

@@ -6,14 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from hexmend import gallery, io
+from hexmend import METHODS, Recipe, Stage, StoppingCriteria, gallery, io, read_recipe, smooth, summarise, write_recipe
 from hexmend.cli.main import main
-from hexmend.iteration import StoppingCriteria
-from hexmend.quality import summarise
-from hexmend.run import smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend.smoothers import METHODS
 
 SHIPPED = sorted((Path(__file__).resolve().parents[3] / "resources" / "recipes").glob("*.toml"))
 
@@ -63,10 +57,9 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
     (["--recipe", "{mesh}"], 3, "mesh.vtu: is not text"),
     (["--save-recipe", "{folder}/no/such.toml"], 3, "such.toml: cannot be written"),
 ])  # fmt: skip
-def test_what_is_wrong_is_one_line_before_the_work(words, status, said, mesh, recipe, tmp_path, capsys):
+def test_what_is_wrong_is_one_line_before_the_work(words, status, said, mesh, recipe, tmp_path, run_command):
     words = [word.format(mesh=mesh, recipe=recipe, folder=tmp_path) for word in words]
-    assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.vtu"), *words]) == status
-    (line,) = capsys.readouterr().err.splitlines()
+    (line,) = run_command("smooth", mesh, "-o", tmp_path / "out.vtu", *words, status=status).err.splitlines()
     assert said in line
     assert not (tmp_path / "out.vtu").exists()
 

@@ -8,9 +8,8 @@ import sys
 
 import pytest
 
-from hexmend import io
+from hexmend import io, summarise
 from hexmend.cli.main import main
-from hexmend.quality import summarise
 from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration.
@@ -115,23 +114,21 @@ def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
 
 
 @pytest.mark.parametrize("option", ["--json", "--history", "--save-recipe"])
-def test_a_report_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, option, capsys):
+def test_a_report_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, option, run_command):
     out = tmp_path / "out.vtu"
     for place, said in (
         (mesh, "is the mesh"),
         (tmp_path / "no" / "a.toml", "there is no folder"),
         (tmp_path, "is a folder"),
     ):
-        assert main(["smooth", str(mesh), "-o", str(out), option, str(place)]) == 3
-        assert said in capsys.readouterr().err
+        assert said in run_command("smooth", mesh, "-o", out, option, place, status=3).err
     assert not out.exists()
 
 
-def test_a_mesh_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, capsys):
+def test_a_mesh_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, run_command):
     assert main(["smooth", str(mesh), "-o", str(tmp_path / "no" / "out.vtu")]) == 3
     (tmp_path / "folder.vtu").mkdir()
-    assert main(["smooth", str(mesh), "-o", str(tmp_path / "folder.vtu")]) == 3
-    assert "is a folder" in capsys.readouterr().err
+    assert "is a folder" in run_command("smooth", mesh, "-o", tmp_path / "folder.vtu", status=3).err
 
 
 def test_letters_that_a_terminal_has_not_and_a_full_disk_are_no_traceback(mesh):
@@ -147,20 +144,18 @@ def test_letters_that_a_terminal_has_not_and_a_full_disk_are_no_traceback(mesh):
         assert "Traceback" not in done.stderr
 
 
-def test_codes_that_steer_a_terminal_are_not_printed(tmp_path, capsys):
+def test_codes_that_steer_a_terminal_are_not_printed(tmp_path, run_command):
     path = tmp_path / "a\x1b[2Jb.vtu"
     path.write_text("no mesh")
-    assert main(["info", str(path)]) == 3
-    assert "\x1b" not in capsys.readouterr().err
+    assert "\x1b" not in run_command("info", path, status=3).err
 
 
 @pytest.mark.parametrize("scale", [1e103, 1e-110, 1e300])
-def test_lengths_beyond_numbers_are_one_clear_error(tmp_path, scale, capsys):
+def test_lengths_beyond_numbers_are_one_clear_error(tmp_path, scale, run_command):
     text = "\n".join(f"{x * scale!r} {y * scale!r} {z * scale!r}" for z in (0, 1) for y in (0, 1) for x in (0, 1))
     path = tmp_path / "far.vtk"
     path.write_text(
         "# vtk DataFile Version 2.0\nv\nASCII\nDATASET UNSTRUCTURED_GRID\n"
         f"POINTS 8 double\n{text}\nCELLS 1 9\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 1\n12\n"
     )
-    assert main(["info", str(path), "--json"]) == 3
-    assert "unit of length" in capsys.readouterr().err
+    assert "unit of length" in run_command("info", path, "--json", status=3).err

@@ -2,11 +2,9 @@
 
 import numpy as np
 
+from hexmend import METHODS, MotionRules, StoppingCriteria
 from hexmend.advice import Suggestion
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
-from hexmend.iteration import StoppingCriteria
-from hexmend.mesh.rules import MotionRules
-from hexmend.smoothers import METHODS
 
 
 def test_a_command_says_what_a_suggestion_says():

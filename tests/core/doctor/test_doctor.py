@@ -5,12 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Cells, Mesh, measure
 from hexmend.doctor import PROBLEMS, examine, repair
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE, VOXEL_ORDER
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes, with_consistent_orientation
-from hexmend.quality import measure
 from tests.core.doctor.faulty_meshes import (
     SOUND,
     bent,

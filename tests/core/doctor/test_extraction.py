@@ -4,10 +4,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Cells, Mesh
 from hexmend.doctor.removal import extract_hexes
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 GRID = grid(3, 2, 2)

@@ -2,15 +2,12 @@
 
 import numpy as np
 
+from hexmend import Cells, LinearMotion, Mesh, measure
 from hexmend.doctor import examine, repair
 from hexmend.doctor.cells import _WEDGES
 from hexmend.doctor.removal import renumber_nodes
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE
-from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.materials import CONTACT_CARDS
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from tests.core.doctor.faulty_meshes import SOUND, blocks, collapsed, found_in
 from tests.core.grids import grid
 

@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend import StoppingCriteria, smooth, summarise
 from hexmend.doctor import examine
 from hexmend.gallery import GALLERY, make
-from hexmend.quality import summarise
-from hexmend.run import StoppingCriteria, smooth
 
 every = pytest.mark.parametrize("name", GALLERY)
 

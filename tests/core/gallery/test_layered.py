@@ -5,9 +5,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from hexmend import find_layers, summarise
 from hexmend.gallery import make
-from hexmend.layers import find_layers
-from hexmend.quality import summarise
 from hexmend.target import given_lengths
 
 

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 import hexmend as hx
+from hexmend import StoppingCriteria, summarise
 from hexmend.doctor import examine
 from hexmend.gallery import make
 from hexmend.gallery.aeroplane import FUSELAGE, TAILPLANE, WINGS
 from hexmend.gallery.plane import BOX
-from hexmend.quality import summarise
-from hexmend.run import StoppingCriteria
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS, MID_NODE_WEIGHTS
 from tests.core.grids import grid, scrambled
 

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.quality import summarise
+from hexmend import io, summarise
 from tests.core.io.kept import assert_same, middles_are_in_the_middle
 
 FILES = Path(__file__).with_name("files")

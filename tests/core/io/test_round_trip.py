@@ -6,11 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, Mesh, io
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 EXACT = [(one.suffixes[0], encoding) for one in FORMATS.values() if one.exact for encoding in one.encodings]

@@ -5,10 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Mesh, find_layers, read
 from hexmend.gallery import GALLERY, make
-from hexmend.io import read
-from hexmend.layers import find_layers
-from hexmend.mesh.mesh import Mesh
 from hexmend.target import given_lengths
 from tests.core.grids import grid, scrambled
 from tests.core.layers.stacks import scrambled_in_layers, stack

@@ -3,16 +3,12 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.cli.main import main
-from hexmend.errors import MeshError, ParameterError
+from hexmend import METHODS, MeshError, ParameterError, io, iterate, measure, smooth
 from hexmend.gallery import make
 from hexmend.layers import find_layers, layers_on_sets, named_walls
-from hexmend.quality import measure
-from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, from_toml, to_toml
-from hexmend.smoothers import METHODS
 from hexmend.target import given_lengths
+from tests.core.grids import displaced
 from tests.core.layers.stacks import scrambled_in_layers, stack
 
 
@@ -35,9 +31,8 @@ def test_stacks_end_where_hexes_are_no_longer_thin_or_heights_jump():
     (wall,) = layers_on_sets(stack(layers=14, first=0.01, growth=1.3), ["plate"]).walls
     assert wall.depth == 12  # 0.01 * 1.3**12 > 0.2
     mesh = flat()
-    points = mesh.points.copy()
-    points[points[:, 2] > 0.07, 2] += 0.05  # from the fourth layer of six on
-    (wall,) = layers_on_sets(mesh.with_points(points), ["plate"]).walls
+    lifted = displaced(mesh, np.s_[mesh.points[:, 2] > 0.07, 2], 0.05)  # from the fourth layer of six on
+    (wall,) = layers_on_sets(lifted, ["plate"]).walls
     assert wall.depth == 3
 
 
@@ -78,15 +73,16 @@ def test_what_is_wrong_is_named():
         smooth(mesh, layers="plat")
 
 
-def test_the_option_names_walls(tmp_path, capsys):
+def test_the_option_names_walls(tmp_path, run_command):
     path, out = str(tmp_path / "flat.vtu"), str(tmp_path / "out.vtu")
     io.write(path, scrambled_in_layers(flat(), 0.3))
-    assert main(["smooth", path, "-o", out, "--layers", "floor"]) == 0
-    printed = capsys.readouterr()
+    printed = run_command("smooth", path, "-o", out, "--layers", "floor")
     assert "Boundary layers at 'floor' are kept." in printed.err
     assert "Layers at 'floor' (6 layers on 100 faces)" in printed.out
-    assert main(["smooth", path, "-o", out, "--layers", "flor"]) == 2
-    assert "layers = flor: there is no set 'flor'" in capsys.readouterr().err
+    assert (
+        "layers = flor: there is no set 'flor'"
+        in run_command("smooth", path, "-o", out, "--layers", "flor", status=2).err
+    )
 
 
 @pytest.mark.parametrize("scramble", [0.0, 0.5])

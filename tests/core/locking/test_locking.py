@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend import io
-from hexmend.cli.main import main
+from hexmend import io, measure
 from hexmend.locking import Reason, find_locking
-from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
 #: Scaled Jacobian of a hex that is flat but for rounding.
@@ -121,15 +119,13 @@ def test_sliding_may_free_the_bunny(real_mesh):
     assert locking.undecided.all()  # the published result frees all of them
 
 
-def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, capsys):
+def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, run_command):
     path = tmp_path / "cut.vtu"
     io.write(path, flat_corner())
-    assert main(["info", str(path), "--doctor"]) == 0
-    printed = capsys.readouterr().out
+    printed = run_command("info", path, "--doctor").out
     assert "3 locked; 1 needs another layer; 2 that neither mends." in printed
     assert "Hex 0 at node" in printed
     assert f"hexmend pad {quote(str(path))} -o OUT" in printed
-    assert main(["info", str(path), "--json"]) == 0
-    values = json.loads(capsys.readouterr().out)["locking"]
+    values = json.loads(run_command("info", path, "--json").out)["locking"]
     assert (values["need_layer"], values["unmendable"]) == ([9], [0, 18])
     assert all(len(one["nodes"]) == 4 for one in values["corners"])

@@ -5,13 +5,11 @@ from itertools import product
 import numpy as np
 import pytest
 
+from hexmend import Mesh, measure, smooth
 from hexmend.doctor import PROBLEMS
 from hexmend.locking import hexes_without_valid_position, nodes_without_valid_position
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes
-from hexmend.quality import measure
-from hexmend.run import smooth
 from tests.core.grids import grid
 
 

@@ -5,9 +5,8 @@ import copy
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError
+from hexmend import MeshError, Target
 from hexmend.gallery import make
-from hexmend.mesh.element_target import Target
 
 
 @pytest.fixture

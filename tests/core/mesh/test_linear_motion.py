@@ -6,8 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError
-from hexmend.mesh.linear_motion import LinearMotion
+from hexmend import LinearMotion, MeshError
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from tests.core.grids import grid
 from tests.core.linear_motions import planes, turn

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError
+from hexmend import Mesh, MeshError
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 

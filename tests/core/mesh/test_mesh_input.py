@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import MeshError
+from hexmend import Mesh, MeshError
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes

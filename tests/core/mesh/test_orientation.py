@@ -3,19 +3,12 @@
 import numpy as np
 import pytest
 
+from hexmend import Mesh, MeshError, iterate, smooth
 from hexmend.doctor import repair
-from hexmend.errors import MeshError
 from hexmend.mesh import orientation
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import (
-    MIRRORED_CORNERS,
-    left_handed_hexes,
-    mirror_hexes,
-    with_consistent_orientation,
-)
+from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes, mirror_hexes, with_consistent_orientation
 from hexmend.quality import corner_determinants
-from hexmend.run import iterate, smooth
 from hexmend.terminal_text import count_phrase
 from tests.core.grids import grid, scrambled, with_edge_midpoints
 

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.errors import MeshError, ParameterError
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, MeshError, ParameterError, add_set, remove_set
 from hexmend.mesh.rules.named_sets import set_names
-from hexmend.mesh.tags import add_set, remove_set
 from tests.core.grids import grid
 
 MESH = grid(3)

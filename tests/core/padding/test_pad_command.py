@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cli.main import main
 from tests.core.grids import grid
 from tests.core.padding.conforming import check_layer
 
@@ -18,10 +17,9 @@ def block(tmp_path):
     return path
 
 
-def test_pad_writes_the_mesh_and_a_report(block, tmp_path, capsys):
+def test_pad_writes_the_mesh_and_a_report(block, tmp_path, run_command):
     out, report = tmp_path / "out.vtu", tmp_path / "report.json"
-    assert main(["pad", str(block), "-o", str(out), "--json", str(report)]) == 0
-    printed = capsys.readouterr().out
+    printed = run_command("pad", block, "-o", out, "--json", report).out
     assert "The layer has 54 hexes" in printed
     values = json.loads(report.read_text())
     assert values["before"]["hexes"] == 27
@@ -31,14 +29,16 @@ def test_pad_writes_the_mesh_and_a_report(block, tmp_path, capsys):
     check_layer(io.read(block), io.read(out))
 
 
-def test_pad_without_mending_says_what_is_inverted(tmp_path, capsys):
+def test_pad_without_mending_says_what_is_inverted(tmp_path, run_command):
     mesh = grid(3)
     points = mesh.points.copy()
     points[0] = [0.9, 0.9, 0.9]
     path, out = tmp_path / "dent.vtu", tmp_path / "out.vtu"
     io.write(path, mesh.with_points(points))
-    assert main(["pad", str(path), "-o", str(out), "--no-mend", "--thickness", "0.1"]) == 4
-    assert "inverted. Mend the mesh." in capsys.readouterr().out
+    assert (
+        "inverted. Mend the mesh."
+        in run_command("pad", path, "-o", out, "--no-mend", "--thickness", "0.1", status=4).out
+    )
     np.testing.assert_array_equal(io.read(out).points[: mesh.n_nodes], points)
 
 
@@ -47,8 +47,7 @@ def test_pad_without_mending_says_what_is_inverted(tmp_path, capsys):
     (["--thickness", "0"], 2, "expected a positive length"),
     (["--around", "locked"], 3, "no hex of the mesh is locked"),
 ])  # fmt: skip
-def test_errors_leave_no_file(block, tmp_path, capsys, options, status, words):
+def test_errors_leave_no_file(block, tmp_path, run_command, options, status, words):
     out = tmp_path / "out.vtu"
-    assert main(["pad", str(block), "-o", str(out), *options]) == status
-    assert words in capsys.readouterr().err
+    assert words in run_command("pad", block, "-o", out, *options, status=status).err
     assert not out.exists()

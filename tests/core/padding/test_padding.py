@@ -4,16 +4,14 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import MeshError, ParameterError
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, Mesh, MeshError, ParameterError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
 from hexmend.padding import around_sheet, padded_mesh, whole_sheet
 from hexmend.padding.inserted_layer import CrossingError
 from hexmend.padding.mid_nodes import CENTRES, SIDE_COLUMNS
 from hexmend.quality.material_volumes import material_volumes
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid, placed, scrambled
 from tests.core.padding.conforming import area_of_sides, check_layer, sides_where, sorted_rows
 
 
@@ -40,9 +38,7 @@ def test_every_gallery_mesh_is_padded_and_mended(name):
 
 def test_a_locked_hex_is_mended_with_the_boundary_as_it_is():
     mesh = grid(3)
-    points = mesh.points.copy()
-    points[0] = [0.9, 0.9, 0.9]  # a corner pushed through the plane of its neighbours
-    mesh = mesh.with_points(points)
+    mesh = placed(mesh, 0, [0.9, 0.9, 0.9])  # a corner pushed through the plane of its neighbours
     assert hx.smooth(mesh).after.locked_inverted == 1
     padding = hx.pad(mesh, around="locked")
     check_layer(mesh, padding.mesh)

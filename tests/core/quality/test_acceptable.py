@@ -7,7 +7,7 @@ import pytest
 
 from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes
 from hexmend.quality.metric import METRICS
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 VALUES = np.array([-1.0, 0.2, 0.5, 0.8, 2.0, np.nan])
 
@@ -44,6 +44,4 @@ def test_a_part_of_which_a_hex_is_flat_but_for_rounding_is_wound_as_the_others_a
 def test_rounding_grows_with_the_distance_from_the_origin_and_the_size():
     mesh = folded(1.0)
     far = mesh.with_points(1e3 * mesh.points + 1e9)
-    points = far.points.copy()
-    points[-1, 2] += 2e-7  # a bit of such coordinates
-    assert left_handed_hexes(far.with_points(points)).all()
+    assert left_handed_hexes(displaced(far, np.s_[-1, 2], 2e-7)).all()  # a bit of such coordinates

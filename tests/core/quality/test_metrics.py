@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
-from hexmend.quality import METRICS, measure, metric_statistics
-from hexmend.quality.summary import MetricStatistics
+from hexmend.quality import METRICS, MetricStatistics, measure, metric_statistics
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

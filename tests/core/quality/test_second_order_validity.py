@@ -5,16 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Mesh, io, iterate, measure, summarise
 from hexmend.cli.main import main
 from hexmend.doctor import PROBLEMS
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS, NODE_POSITIONS, jacobian_range, lagrange
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
-from hexmend.quality import measure, summarise
 from hexmend.quality.validity import Validity, certify, jacobian_bounds, least_jacobian
-from hexmend.run import iterate
 from hexmend_app.scene.geometry.curved_elements import jacobian_field
 from tests.core.grids import grid, scrambled, with_edge_midpoints
 from tests.core.quality.test_validity import BETWEEN, random_hexes, separate
@@ -105,17 +102,15 @@ def test_iterations_of_a_second_order_mesh_are_judged_with_its_mid_nodes_moved()
     assert iteration.invalid == 0
 
 
-def test_info_and_smooth_count_hexes_that_are_invalid_inside(tmp_path, capsys):
+def test_info_and_smooth_count_hexes_that_are_invalid_inside(tmp_path, capsys, run_command):
     path, out, report = (str(tmp_path / name) for name in ("mesh.vtu", "out.vtu", "report.json"))
     io.write(path, Mesh(*separate([UNIT_CUBE, BETWEEN + 10.0])))
-    assert main(["info", path, "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)
+    figures = json.loads(run_command("info", path, "--json").out)
     assert (figures["inverted"], figures["invalid"]) == (0, 1)
     assert figures["min_jacobian"] < 0
     main(["info", path])
     assert "1 of 2 hexes is invalid inside, between positive corners." in capsys.readouterr().out
-    assert main(["smooth", path, "-o", out, "--json", report]) == 4
-    assert "1 hex still invalid inside" in capsys.readouterr().out
+    assert "1 hex still invalid inside" in run_command("smooth", path, "-o", out, "--json", report, status=4).out
     for figures in (json.loads((tmp_path / "report.json").read_text())[time] for time in ("before", "after")):
         assert (figures["inverted"], figures["invalid"]) == (0, 1)
         assert figures["min_jacobian"] < 0

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hexmend.quality import METRICS, measure
-from hexmend.quality.summary import SUMMARY_QUANTITIES
+from hexmend.quality import METRICS, SUMMARY_QUANTITIES, measure
 
 
 def test_counts_extremes_and_spreads_have_no_better_way_and_all_others_have():

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.mesh.element_target import Target
-from hexmend.quality import METRICS, measure
+from hexmend import METRICS, Target, measure
 from hexmend.target import given_lengths, make_target
 from tests.core.layers.stacks import scrambled_in_layers, stack
 

@@ -10,15 +10,12 @@ import time
 import numpy as np
 import pytest
 
+from hexmend import Cells, Mesh, read, summarise, write
 from hexmend.gallery import make
-from hexmend.io import read, write
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
 from hexmend.io.slices import open_slices, slice_of
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS
-from hexmend.quality import summarise
 from tests.core.ranks.test_ranks import (
     ENVIRONMENT,
     _descendants,

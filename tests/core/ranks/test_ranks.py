@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 
 from benchmarks.scale import launching
-from hexmend.cli.main import main
+from hexmend import Mesh, measure, read, summarise, write
 from hexmend.gallery import make
-from hexmend.io import read, write
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure, summarise
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
 from tests.core.doctor.faulty_meshes import bent
 
@@ -145,12 +142,14 @@ def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_p
     assert not (tmp_path / "out.vtu").exists()
 
 
-def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypatch, capsys):
+def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypatch, run_command):
     monkeypatch.setitem(sys.modules, "mpi4py", None)
     monkeypatch.delitem(sys.modules, "hexmend.cli.commands.smooth.on_ranks", raising=False)
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
-    assert main(["smooth", str(tangled), "-o", str(tmp_path / "out.vtu")]) == 2
-    assert "pip install '.[mpi]'  in the source folder of Hexmend" in capsys.readouterr().err
+    assert (
+        "pip install '.[mpi]'  in the source folder of Hexmend"
+        in run_command("smooth", tangled, "-o", tmp_path / "out.vtu", status=2).err
+    )
 
 
 def _descendants(process):
@@ -230,12 +229,15 @@ def test_parts_cover_the_mesh_once(count):
 
 @needs_mpi
 @pytest.mark.slow
-def test_second_order_hexes_are_judged_as_in_one_process(tmp_path, capsys):
+def test_second_order_hexes_are_judged_as_in_one_process(tmp_path, run_command):
     given, report = tmp_path / "given.vtu", tmp_path / "report.json"
     write(given, bent(inside=True))
     words = given, "-o", tmp_path / "out.vtu", "--json", report
-    assert main(["smooth", *map(str, words)]) == 4
-    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith(("Second", "Not fit"))]
+    lines = [
+        line
+        for line in run_command("smooth", *words, status=4).out.splitlines()
+        if line.startswith(("Second", "Not fit"))
+    ]
     figures_of_one = [json.loads(report.read_text())[time]["second_order"] for time in ("before", "after")]
     run = on_ranks(2, *words)
     assert run.returncode == 4, run.stderr

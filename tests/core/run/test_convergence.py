@@ -5,12 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from hexmend import METHODS, Outcome, Recipe, Smoother, Stage, Step, StoppingCriteria, iterate, measure, smooth
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, Step
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS, Smoother
 from tests.core.grids import grid, scrambled
 
 MIDDLE = 13  # of a grid of 2 x 2 x 2

@@ -8,22 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend import io
+from hexmend import METHODS, StoppingCriteria, io, iterate, smooth
 from hexmend.cli.main import main
 from hexmend.gallery import GALLERY, make
-from hexmend.iteration import StoppingCriteria
-from hexmend.quality import (
-    REGRESSION_KEYS,
-    SUMMARY_QUANTITIES,
-    describe_regressions,
-    measure,
-    regressions,
-    summarise,
-)
+from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, describe_regressions, measure, regressions, summarise
 from hexmend.quality.regressions import WORSE_BY
-from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 

@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
-from hexmend.advice import advise
+from hexmend import METHODS, Recipe, Run, Stage, advise, measure, smooth
 from hexmend.gallery import make
 from hexmend.layers import find_layers, grading_message
-from hexmend.quality import measure
 from hexmend.report.records import record
-from hexmend.run import Run, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from hexmend.target import given_lengths
 from tests.core.grids import grid, scrambled
 from tests.core.layers.stacks import scrambled_in_layers, stack

@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 
 from benchmarks.scale.memory import measure_memory
-from hexmend import gallery, io
-from hexmend.cli.main import main
+from hexmend import METHODS, Recipe, gallery, io
 from hexmend.run.memory import FIXED, available, needed, shortage
-from hexmend.run.recipe import Recipe
-from hexmend.smoothers import METHODS
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -143,12 +140,11 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     assert mesh_file.read_bytes() == before
 
 
-def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, capsys):
+def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, run_command):
     def ends(*arguments):
         raise MemoryError
 
     monkeypatch.setattr(METHODS["mend"], "steps", ends)
-    assert main(["smooth", str(mesh_file), "-o", str(tmp_path / "out.vtu")]) == 3
-    (line,) = capsys.readouterr().err.splitlines()
+    (line,) = run_command("smooth", mesh_file, "-o", tmp_path / "out.vtu", status=3).err.splitlines()
     assert line.startswith("hexmend: not enough memory")
     assert not (tmp_path / "out.vtu").exists()

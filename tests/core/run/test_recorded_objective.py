@@ -5,15 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from hexmend import METHODS, Outcome, StoppingCriteria, compare, iterate, smooth
 from hexmend.energy import ObjectiveNorm, energies
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.quality import measure, objective
 from hexmend.report.comparison import comparison_rows, record_table
-from hexmend.run import iterate, smooth
-from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
-from hexmend.study.compare import compare
 
 OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, ObjectiveSmoother)]
 POWERS = [ObjectiveNorm(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]

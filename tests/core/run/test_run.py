@@ -6,15 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from hexmend.errors import ParameterError
+from hexmend import METHODS, Outcome, ParameterError, Smoother, Step, measure, summarise
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, Step
 from hexmend.iteration.figures import HISTORY
-from hexmend.quality import measure, summarise
 from hexmend.report.records import record, to_json, write_history, write_json
 from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS, Smoother
-from tests.core.grids import grid, scrambled
+from tests.core.grids import displaced, grid, scrambled
 
 
 @pytest.fixture(scope="module")
@@ -125,9 +122,7 @@ def test_an_optimiser_beside_the_barrier_has_not_converged_however_short_its_ste
     inner = np.flatnonzero(mesh.free)[0]
 
     def pushed(by):
-        points = mesh.points.copy()
-        points[inner] -= by
-        return mesh.with_points(points)
+        return displaced(mesh, inner, -by)
 
     sound, inverted = 0.0, 1.0  # as far as it goes before a hex is flat
     while inverted - sound > 1e-7:

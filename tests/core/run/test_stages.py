@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 
+from hexmend import METHODS, Mesh, Outcome, Recipe, Stage, StoppingCriteria, iterate, smooth
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, StoppingCriteria
-from hexmend.mesh.mesh import Mesh
 from hexmend.report.records import record, to_json
-from hexmend.run import iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
 FEW = StoppingCriteria(max_iterations=4, tolerance=0)

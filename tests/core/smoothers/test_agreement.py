@@ -7,12 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from hexmend import METHODS, Outcome, StoppingCriteria, measure, smooth
 from hexmend.gallery import make
-from hexmend.iteration import Outcome
 from hexmend.parameters import declared
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 OPTIMISERS = [name for name, cls in METHODS.items() if cls.optimises]

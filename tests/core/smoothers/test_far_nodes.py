@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.advice import advise
+from hexmend import METHODS, MeshError, StoppingCriteria, advise, read, smooth, write
 from hexmend.boundary import SlidingBoundary
 from hexmend.cli.main import main
-from hexmend.errors import MeshError
-from hexmend.io import read, write
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
 #: Of a grid of 4 x 4 x 4 hexes: a node inside, one within a side, and a corner.

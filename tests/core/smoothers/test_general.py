@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
+from hexmend import METHODS, Outcome, StoppingCriteria, measure, smooth
 from hexmend.gallery import make
-from hexmend.iteration import Outcome
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from hexmend.smoothers.general import edge_length_ratio
 from tests.core.grids import grid, scrambled
 

@@ -5,16 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import METHODS, LocalPatch, Mesh, StoppingCriteria, measure, smooth
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels.local import Direction, NodeStepSettings
 from hexmend.kernels.patches import sweep
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import partition_patches
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
-from hexmend.smoothers.local.patch import LocalPatch
 from tests.core.grids import grid, scrambled
 from tests.core.smoothers.test_smoothers import after
 

@@ -8,11 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend import kernels
+from hexmend import METHODS, kernels, measure
 from hexmend.gallery import make
 from hexmend.parameters import declared, from_strings
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 pytestmark = pytest.mark.parametrize("name", METHODS)

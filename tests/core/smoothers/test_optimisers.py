@@ -5,12 +5,11 @@ from itertools import islice
 import numpy as np
 import pytest
 
+from hexmend import METHODS, StoppingCriteria, iterate, smooth
 from hexmend.energy import SQUARES, ObjectiveNorm, objective
 from hexmend.gallery import make
 from hexmend.kernels import local
 from hexmend.kernels.line_search import LineSearch
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import Optimiser
 from tests.core.grids import grid, scrambled
 

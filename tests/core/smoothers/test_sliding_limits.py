@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import METHODS, StoppingCriteria, smooth
 from hexmend.boundary import SlidingBoundary, surface_change
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
 

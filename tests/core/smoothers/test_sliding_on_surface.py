@@ -9,13 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend import io
+from hexmend import METHODS, MeshError, StoppingCriteria, io, smooth
 from hexmend.boundary import SkinSurface, SlidingBoundary, surface_change
 from hexmend.boundary.closest_point import triangulate
 from hexmend.cli.main import main
-from hexmend.errors import MeshError
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
@@ -101,7 +98,7 @@ def test_the_command_line_takes_it(tmp_path, capsys):
     assert "from fine.stl" in capsys.readouterr().out
 
 
-def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
+def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, run_command):
     path, stl = tmp_path / "ball.vtu", tmp_path / "far.stl"
     io.write(path, ball(3))
     skin = skin_of(ball(3))
@@ -114,21 +111,22 @@ def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
         (["--surface-tolerance", "0.1", "--set", "surface_tolerance=0.2"], 2, "set the same value"),
         (["--surface-tolerance", "-1"], 2, "surface_tolerance"),
     ):
-        assert main([*words, *more]) == status
-        captured = capsys.readouterr()
+        captured = run_command(*words, *more, status=status)
         assert said in captured.err
         assert captured.err.count("\n") == 1
     assert not (tmp_path / "out.vtu").exists()
 
 
-def test_methods_are_compared_on_it(tmp_path, capsys):
+def test_methods_are_compared_on_it(tmp_path, run_command):
     path, stl, folder = tmp_path / "ball.vtu", tmp_path / "fine.stl", tmp_path / "tables"
     mesh, skin = slid(ball(3), 0.3), skin_of(ball(12))
     io.write(path, mesh)
     write_stl(stl, skin)
     words = ["compare", str(path), "-o", str(folder), "--methods", "laplacian,local-nr", "--max-iterations", "3"]
-    assert main([*words, "--surface", str(stl), "--boundary", "fixed"]) == 2
-    assert "--surface is for a sliding boundary" in capsys.readouterr().err
+    assert (
+        "--surface is for a sliding boundary"
+        in run_command(*words, "--surface", stl, "--boundary", "fixed", status=2).err
+    )
     assert not folder.exists()
     assert main([*words, "--surface", str(stl), "--surface-tolerance", "0", "--write-meshes"]) == 0
     rows = json.loads((folder / "comparison.json").read_text())["rows"]

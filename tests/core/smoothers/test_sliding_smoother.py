@@ -9,14 +9,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend import io, kernels
+from hexmend import METHODS, Recipe, Stage, StoppingCriteria, io, iterate, kernels, measure, smooth
 from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
-from hexmend.cli.main import main
-from hexmend.quality import measure
 from hexmend.report.records import record
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
 
@@ -161,19 +156,16 @@ def test_the_surface_is_recorded():
     assert "surface" not in record(smooth(mesh, "local-nr", StoppingCriteria(max_iterations=2)))
 
 
-def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_path, capsys):
+def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_path, run_command):
     path, out, report = tmp_path / "mesh.vtu", tmp_path / "out.vtu", tmp_path / "report.json"
     mesh = slid(cylinder(16, 3), 0.2)
     io.write(path, mesh)
     words = ["smooth", str(path), "-o", str(out), "--method", "local-nr", "--max-iterations", "5"]
     words += ["--json", str(report)]
-    assert main([*words, "--boundary", "slide"]) == 0
-    assert "The boundary slid: " in capsys.readouterr().out
+    assert "The boundary slid: " in run_command(*words, "--boundary", "slide").out
     said = json.loads(report.read_text())
     assert said["parameters"]["boundary"] == "slide"
     assert said["surface"]["moved"] > 0
-    assert main([*words, "--boundary", "fixed"]) == 0
-    assert "slid" not in capsys.readouterr().out
+    assert "slid" not in run_command(*words, "--boundary", "fixed").out
     assert "surface" not in json.loads(report.read_text())
-    assert main([*words, "--boundary", "slide", "--set", "boundary=fixed"]) == 2
-    assert "--set boundary" in capsys.readouterr().err
+    assert "--set boundary" in run_command(*words, "--boundary", "slide", "--set", "boundary=fixed", status=2).err

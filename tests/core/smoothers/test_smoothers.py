@@ -4,12 +4,8 @@ import itertools
 
 import numpy as np
 
+from hexmend import Laplacian, LocalSteepestDescent, SmartLaplacian, StoppingCriteria, measure, smooth
 from hexmend.gallery import make
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers.laplacian.laplacian import Laplacian
-from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
-from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from tests.core.grids import grid, scrambled
 
 

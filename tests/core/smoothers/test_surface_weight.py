@@ -7,16 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend import METHODS, StoppingCriteria, Target, iterate, kernels, smooth
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import FixedDelta, ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
-from hexmend.mesh.element_target import Target
 from hexmend.quality import measure, objective
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 from tests.core.linear_motions import planes
 
 WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
@@ -94,9 +91,7 @@ def with_a_flipped_quad():
     """A cube in which a node of a face is beyond a diagonal of its quads, but so little inside that no hex is inverted."""
     cube = grid(4)
     node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
-    points = cube.points.copy()
-    points[node] += [0.8, 0.8, 0]
-    return cube.with_points(points), node
+    return displaced(cube, node, [0.8, 0.8, 0]), node
 
 
 @pytest.mark.parametrize("name", WEIGHTED[::3])

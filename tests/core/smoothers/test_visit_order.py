@@ -7,12 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend import METHODS, Laplacian, kernels, measure
 from hexmend.gallery import make
 from hexmend.kernels import local
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
-from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 from tests.core.grids import grid, scrambled

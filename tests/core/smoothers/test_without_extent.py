@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria, smooth
 from tests.core.grids import grid
 
 

@@ -6,10 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from hexmend.errors import ParameterError
+from hexmend import Mesh, ParameterError
 from hexmend.gallery import GALLERY, make
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality.validity import least_jacobian
 from hexmend.report.records import to_json
 from hexmend.solver_checks import SOLVERS, check_mesh

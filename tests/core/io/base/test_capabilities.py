@@ -3,12 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 

@@ -5,8 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, structured
 from tests.core.io.formats.vtk.test_vtkhdf import hand_made

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, io
 from tests.core.grids import grid
 
 

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Cells, io
 from hexmend.io.base.capabilities import make_unique
-from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 IDS = {

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Cells, io
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
-from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 ENDS = [-(2**31) - 1, -(2**31), 2**31 - 1, 2**31]

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.io import Original, write_as_given
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import ChangedFileError, difference
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
 from hexmend.mesh.orientation import mirror_hexes
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 from tests.core.io.kept import assert_same, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
@@ -28,9 +27,7 @@ _NUMBER = re.compile(rb"[-+0-9.eEdD]+")
 def moved(mesh, every=2):
     """The mesh with some of its nodes elsewhere, and which."""
     which = np.arange(mesh.n_nodes) % every == 0
-    points = mesh.points.copy()
-    points[which] += 0.01 * np.random.default_rng(5).normal(size=(int(which.sum()), 3))
-    return mesh.with_points(points)
+    return displaced(mesh, which, 0.01 * np.random.default_rng(5).normal(size=(int(which.sum()), 3)))
 
 
 def check(source: Path, target: Path):

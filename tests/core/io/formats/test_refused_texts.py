@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.io.formats.abaqus.test_abaqus import DECK, cube
 from tests.core.io.formats.gmsh.test_gmsh import HEAD, NODES

@@ -5,8 +5,7 @@ import os
 
 import pytest
 
-from hexmend import gallery, io
-from hexmend.errors import FileError
+from hexmend import FileError, gallery, io
 from hexmend.io.storage.atomic import atomic_write
 
 

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import MeshError
-from hexmend.mesh.mesh import Mesh
+from hexmend import Mesh, MeshError
 from hexmend.mesh.rules.two_dimensional import two_dimensional_motion, with_two_dimensional_motion
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 from tests.core.linear_motions import scrambled_within
 
 
@@ -90,9 +89,7 @@ def test_sides_that_are_no_copies_are_refused():
     with pytest.raises(MeshError, match=r"not opposite each other: the line between them is inclined by 0\.57"):
         two_dimensional_motion(mesh.with_points(points))
     mesh = wedge()
-    points = mesh.points.copy()
-    points[50] += [0.1, 0, 0]
     with pytest.raises(MeshError, match="from the image of node"):
-        two_dimensional_motion(mesh.with_points(points))
+        two_dimensional_motion(displaced(mesh, 50, [0.1, 0, 0]))
     with pytest.raises(MeshError, match="both sides of the wedge are in 'front'"):
         two_dimensional_motion(layer(kind="wedge"))

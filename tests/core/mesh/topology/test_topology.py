@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from hexmend.errors import MeshError
-from hexmend.mesh.mesh import Mesh
+from hexmend import Mesh, MeshError
 from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 

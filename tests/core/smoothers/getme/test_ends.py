@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, measure
 from hexmend.smoothers.getme.sequential import HALVINGS
 from hexmend.smoothers.getme.simultaneous import figures_of_merit
 from tests.core.grids import grid, scrambled

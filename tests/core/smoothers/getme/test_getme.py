@@ -8,13 +8,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from hexmend import METHODS, Outcome, StoppingCriteria, measure, smooth
 from hexmend.gallery import make
-from hexmend.iteration import Outcome
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

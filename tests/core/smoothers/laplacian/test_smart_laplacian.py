@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import METHODS, measure
 from hexmend.gallery import make
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 Smart = METHODS["smart-laplacian"]

@@ -2,8 +2,7 @@
 
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.gallery import make
 from hexmend.study.batch.mesh_files import find_meshes
 

@@ -6,10 +6,10 @@ import os
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.io import Original, write_as_given
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from tests.core.grids import displaced
 
 NODES = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
 HEX = "*ELEMENT, TYPE=C3D8, ELSET=BODY\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
@@ -36,9 +36,7 @@ def deck(request, tmp_path):
 def moved(deck):
     mesh = io.read(deck)
     np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
-    points = mesh.points.copy()
-    points[[2, 7]] += [0.125, 0.25, 0.5]
-    return mesh, mesh.with_points(points)
+    return mesh, displaced(mesh, [2, 7], [0.125, 0.25, 0.5])
 
 
 def lines(path):

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io, summarise
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
-from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, structured, unstructured
 

@@ -4,10 +4,8 @@ import h5py
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io, summarise
 from hexmend.io.base.polyhedra import LOOPS, faces_from_cells
-from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, unstructured
 

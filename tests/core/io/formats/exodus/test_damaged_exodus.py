@@ -4,8 +4,7 @@ import struct
 
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid
 
 

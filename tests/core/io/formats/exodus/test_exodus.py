@@ -5,8 +5,7 @@ import shutil
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid

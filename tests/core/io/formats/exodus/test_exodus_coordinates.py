@@ -6,6 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.io import Original, write_as_given
 from hexmend.io.formats.exodus.netcdf3 import ClassicReader
+from tests.core.grids import displaced
 from tests.core.io.formats.exodus.exodus_files import on_hdf5, rich
 from tests.core.io.kept import assert_same
 
@@ -13,9 +14,7 @@ h5py = pytest.importorskip("h5py")
 
 
 def moved(mesh):
-    points = mesh.points.copy()
-    points[::3] += 0.01 * np.random.default_rng(3).normal(size=points[::3].shape)
-    return mesh.with_points(points)
+    return displaced(mesh, np.s_[::3], 0.01 * np.random.default_rng(3).normal(size=mesh.points[::3].shape))
 
 
 def replaced(source, target):

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, Mesh, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, on_hdf5, rich, written

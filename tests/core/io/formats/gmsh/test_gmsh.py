@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid
 
 FILES = Path(__file__).parents[2] / "files"

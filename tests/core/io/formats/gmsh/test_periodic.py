@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import FileError, io, smooth
 from hexmend.cli.main import main
-from hexmend.errors import FileError
-from hexmend.run import smooth
 from tests.core.grids import grid, scrambled
 
 CUBE = grid(3)
@@ -92,10 +90,11 @@ def test_a_file_written_anew_lacks_the_pairs_and_it_is_said(path, tmp_path, caps
     assert io.read(out).periodic_pairs == mesh.periodic_pairs
 
 
-def test_repair_does_not_drop_the_pairs_of_its_own_file(tmp_path, capsys):
+def test_repair_does_not_drop_the_pairs_of_its_own_file(tmp_path, run_command):
     path = tmp_path / "cell.msh"
     text = (version_2(CUBE) + text_2(PAIRS)).replace("$Nodes\n64\n", "$Nodes\n65\n999 0 0 77\n")
     path.write_text(text)
-    assert main(["repair", str(path), "-o", str(path)]) == 3
-    assert "would lose data other than the mesh: periodic pairs." in capsys.readouterr().err
+    assert (
+        "would lose data other than the mesh: periodic pairs." in run_command("repair", path, "-o", path, status=3).err
+    )
     assert path.read_text() == text

@@ -1,7 +1,6 @@
 """Reading Gmsh's format of version 1."""
 
-from hexmend import io
-from hexmend.quality import summarise
+from hexmend import io, summarise
 
 FIRST_VERSION = """\
 $NOD

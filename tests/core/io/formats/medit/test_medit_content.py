@@ -5,10 +5,8 @@ import struct
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Cells, Mesh, io
 from hexmend.cli.main import main
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 

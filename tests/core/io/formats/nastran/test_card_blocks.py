@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, FileError, io
 from tests.core.grids import grid, scrambled
 from tests.core.io.base.test_capabilities import quadratic
 from tests.core.io.kept import assert_same

@@ -5,11 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, Mesh, io
 from hexmend.io.formats.nastran.cards import real_field
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.core.io.kept import middles_are_in_the_middle, with_everything
 

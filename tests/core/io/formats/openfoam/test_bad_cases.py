@@ -6,8 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid
 from tests.core.io.formats.openfoam.foam_cases import header, write_cube
 

@@ -5,11 +5,10 @@ import shutil
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import io, summarise
 from hexmend.io.formats.openfoam import times
 from hexmend.io.formats.openfoam.moved_points import read_times
 from hexmend.mesh.hexahedron import FACES
-from hexmend.quality import summarise
 from hexmend.study.batch.task import content_hash
 from tests.core.grids import grid
 from tests.core.io.formats.openfoam.foam_cases import (

@@ -6,13 +6,10 @@ import os
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.io import Original
 from hexmend.io.formats.openfoam.case import find_case
 from hexmend.io.formats.openfoam.reader import read_poly_mesh
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 from tests.core.io.formats.openfoam.foam_cases import write_cube
 

@@ -5,10 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io, summarise
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.quality import summarise
 from tests.core.grids import grid
 
 

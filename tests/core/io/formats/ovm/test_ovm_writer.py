@@ -5,10 +5,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, Mesh, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 UNIT = """OVM ASCII

@@ -5,8 +5,7 @@ import tracemalloc
 
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.io.format_lookup import plugin_formats
 
 HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"

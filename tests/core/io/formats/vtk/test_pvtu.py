@@ -7,13 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import FileError, Mesh, io
 from hexmend.cli.main import main
-from hexmend.errors import FileError
 from hexmend.io.files import remove
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, with_everything
 
@@ -244,14 +242,18 @@ def test_a_link_that_leads_back_to_itself_in_the_folder_does_no_harm(tmp_path):
     assert io.read(whole).n_hexes == 8
 
 
-def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_that_of_its_piece(tmp_path, capsys):
+def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_that_of_its_piece(tmp_path, run_command):
     io.write(tmp_path / "a.pvtu", grid(2))
     whole, piece = str(tmp_path / "a.pvtu"), str(tmp_path / "a" / "a_0.vtu")
     before = [Path(path).read_bytes() for path in (whole, piece)]
-    assert main(["smooth", piece, "-o", whole]) == 3
-    assert "a.pvtu: includes a_0.vtu, the given mesh. Choose another name." in capsys.readouterr().err
-    assert main(["smooth", whole, "-o", piece]) == 3
-    assert "a_0.vtu: is included by a.pvtu. Choose another name." in capsys.readouterr().err
+    assert (
+        "a.pvtu: includes a_0.vtu, the given mesh. Choose another name."
+        in run_command("smooth", piece, "-o", whole, status=3).err
+    )
+    assert (
+        "a_0.vtu: is included by a.pvtu. Choose another name."
+        in run_command("smooth", whole, "-o", piece, status=3).err
+    )
     assert [Path(path).read_bytes() for path in (whole, piece)] == before
     assert main(["smooth", whole, "-o", whole, "--max-iterations", "1"]) == 0
     assert io.read(whole).n_hexes == 8

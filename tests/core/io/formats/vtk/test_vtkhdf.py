@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid, scrambled
 
 h5py = pytest.importorskip("h5py")

@@ -8,8 +8,7 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
 from tests.core.io.vtk_writers import by_vtk, grid_by_vtk
