@@ -5,7 +5,9 @@ import shlex
 import numpy as np
 import pytest
 
-from hexmend import MotionRules, Recipe, io, summarise, write_recipe
+from hexmend import METHODS, MotionRules, Recipe, StoppingCriteria, io, summarise, write_recipe
+from hexmend.advice import Suggestion
+from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
 from hexmend.cli.main import main
 from hexmend.gallery import make
 from tests.core.boundary.solids import ball, slid
@@ -123,3 +125,31 @@ def test_a_hex_that_is_invalid_between_positive_corners_gets_advice_that_makes_i
     assert "No hex is inverted, but 1 hex is invalid inside" in said
     assert main([following if word == "OUT" else word for word in commands[0][1:]]) == 0
     assert summarise(io.read(following)).invalid == 0
+
+
+# The command that stands below a suggestion.
+
+
+def test_a_command_says_what_a_suggestion_says():
+    def command(*args, **more):
+        return suggested_command(Suggestion("", "", "inverted", *args, **more), "a b.vtk", "out.vtk")
+
+    assert command(METHODS["mend"](boundary="slide")) == "hexmend smooth out.vtk -o OUT --boundary slide"
+    assert command(METHODS["getme"](), undo=True) == "hexmend smooth 'a b.vtk' -o OUT --method getme"
+    assert command(METHODS["mend"](), StoppingCriteria(max_iterations=7, keep_last=True)).endswith(
+        " OUT --max-iterations 7 --keep-last"
+    )
+    assert command(METHODS["mend"](), unpin=np.array([3])) == ""
+
+
+def test_a_command_keeps_the_options_of_the_run():
+    def command(smoother, **more):
+        options = RunOptions(MotionRules(fix="a"), as_is=True, surface="skin.stl", only="part", rings=3)
+        return suggested_command(Suggestion("", "", "inverted", smoother, **more), "a.vtk", "out.vtk", options)
+
+    slides = command(METHODS["mend"](boundary="slide"))
+    assert slides.endswith(" --as-is --boundary slide --surface skin.stl --only part --rings 3 --fix a")
+    assert command(METHODS["mend"]()) == "hexmend smooth out.vtk -o OUT --as-is --only part --rings 3 --fix a"
+    assert command(METHODS["mend"](), widen=True).endswith("--rings 8 --fix a")
+    assert command(METHODS["mend"](), rules=MotionRules()).endswith("--rings 3")
+    assert command(METHODS["mend"](target="-x + 2")).partition("--as-is ")[2].startswith("'--target=-x + 2' ")

@@ -2,12 +2,17 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from hexmend import StoppingCriteria, smooth, summarise
+import hexmend as hx
+from hexmend import StoppingCriteria, find_layers, smooth, summarise
 from hexmend.doctor import examine
 from hexmend.gallery import GALLERY, make
+from hexmend.gallery.aeroplane import FUSELAGE, TAILPLANE, WINGS
+from hexmend.gallery.kershaw import kershaw_map
+from hexmend.gallery.plane import BOX
+from hexmend.target import given_lengths
 
 every = pytest.mark.parametrize("name", GALLERY)
 
@@ -72,3 +77,154 @@ def test_sets_and_layers_name_the_parts():
     assert len(five.node_sets["bottom"]) == len(five.node_sets["top"]) == 281
     assert np.bincount(five.hex_data["layer"])[1:].tolist() == [245] * 30
     assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 41
+
+
+# Layered: the heights that its parameters name, on a cylinder, and layers that scrambling leaves near their places.
+
+
+@given(layers=st.integers(5, 30), first=st.floats(1e-5, 1e-3), growth=st.floats(1.05, 1.3))
+@example(layers=5, first=0.0005, growth=1.05)
+def test_heights_grow_from_the_first_by_the_ratio(layers, first, growth):
+    mesh = make("layered", size=2000, layers=layers, first_height=first, growth=growth)
+    radii = np.sort(np.hypot(*mesh.points[:, :2].T))
+    radii = radii[np.diff(radii, prepend=0) > first / 2]  # one of those of each surface, which differ by rounding
+    assert radii[0] == pytest.approx(0.5, rel=1e-14)
+    np.testing.assert_allclose(np.diff(radii), first * growth ** np.arange(layers), atol=1e-14)
+    assert mesh.n_hexes == pytest.approx(2000, rel=0.1)
+    assert summarise(mesh).inverted == 0
+
+
+def test_its_side_sets_are_the_wall_and_the_outside():
+    mesh = make("layered", size=2000)
+    for name, radius in (("cylinder", 0.5), ("outside", np.hypot(*mesh.points[:, :2].T).max())):
+        sides = mesh.side_sets[name]
+        nodes = np.unique(mesh.topology.boundary_faces[np.isin(_faces(mesh), sides @ [6, 1])])
+        np.testing.assert_allclose(np.hypot(*mesh.points[nodes, :2].T), radius)
+    assert [wall.name for wall in find_layers(mesh).walls] == ["cylinder"]
+
+
+def _faces(mesh):
+    """Numbers, 6 * hex + face, of the boundary faces."""
+    hexes, faces = np.nonzero(mesh.topology.face_neighbours < 0)
+    return 6 * hexes + faces
+
+
+@given(scramble=st.floats(0.1, 1), seed=st.integers(0, 100))
+def test_scrambling_displaces_by_shares_of_the_gaps(scramble, seed):
+    sound, mesh = make("layered", size=1000), make("layered", size=1000, scramble=scramble, seed=seed)
+    moves = np.linalg.norm(mesh.points - sound.points, axis=1)
+    lateral = given_lengths(sound)[:, 1:].max()
+    assert moves.max() <= np.sqrt(3) * scramble * lateral
+    assert not moves[mesh.fixed].any()
+
+
+# The gallery mesh plane: figures, boundary, the inverted hexes and that they can be mended.
+
+
+@pytest.fixture(scope="module")
+def plane():
+    return make("plane")
+
+
+@pytest.mark.slow
+def test_counts_and_qualities_are_near_those_of_the_thesis(plane):
+    summary = summarise(plane)
+    assert examine(plane) == ()
+    assert summary.hexes == 31760
+    assert summary.free_nodes == pytest.approx(30389, rel=0.005)
+    assert summary.nodes == pytest.approx(33411, rel=0.01)
+    assert summary.inverted == pytest.approx(163, abs=5)
+    assert summary.locked_inverted == 0
+    assert (summary.q_min, summary.q_mean, summary.q_std) == pytest.approx((0.0945, 0.8164, 0.1276), abs=0.1)
+    assert summary.q_min > 0
+    assert summary.q_mean == pytest.approx(0.8164, abs=0.005)
+
+
+@pytest.mark.slow
+def test_the_boundary_is_the_box_and_the_aeroplane(plane):
+    on_body, on_box = (np.isin(np.arange(plane.n_nodes), plane.node_sets[name]) for name in ("aeroplane", "box"))
+    assert not (on_body & on_box).any()
+    np.testing.assert_array_equal(plane.topology.boundary, on_body | on_box)
+    faces = plane.topology.boundary_faces
+    assert (on_body[faces].all(axis=1) ^ on_box[faces].all(axis=1)).all()
+    on_plane = np.isclose(plane.points[:, None, :], BOX).any(axis=(1, 2))
+    np.testing.assert_array_equal(on_plane, on_box)
+
+
+@pytest.mark.parametrize("size", [1000, pytest.param(31760, marks=pytest.mark.slow)])
+def test_each_surface_is_closed_and_without_handles(size):
+    mesh = make("plane", size=size)
+    faces = mesh.topology.boundary_faces
+    edges = np.concatenate([faces[:, [i, (i + 1) % 4]] for i in range(4)])
+    for name in ("aeroplane", "box"):
+        mine = np.isin(edges, mesh.node_sets[name]).all(axis=1)
+        _, times = np.unique(np.sort(edges[mine], axis=1), axis=0, return_counts=True)
+        assert (times == 2).all()
+        assert len(mesh.node_sets[name]) - len(times) + mine.sum() // 4 == 2  # Euler: a sphere
+
+
+def test_it_is_unstructured_and_its_sizes_range_widely(plane):
+    edges = plane.topology.edges
+    length = np.linalg.norm(np.diff(plane.points[edges], axis=1)[:, 0], axis=1)
+    assert np.percentile(length, 99) > 10 * np.percentile(length, 1)
+    inner = ~plane.topology.boundary
+    valence = np.bincount(edges.ravel())[inner]
+    assert {5, 6, 7} <= set(valence)  # 6 in a structured mesh
+    assert np.count_nonzero(valence != 6) > 400
+
+
+def test_the_aeroplane_has_wings_a_tailplane_and_a_fin(plane):
+    x, y, z = plane.points[plane.node_sets["aeroplane"]].T
+    assert np.ptp(x) == pytest.approx(1, abs=0.1)
+    assert np.ptp(y) == pytest.approx(2 * WINGS.span, abs=0.05)
+    tip = np.abs(y) > 0.9 * WINGS.span
+    root = np.isclose(np.abs(y), FUSELAGE.radius, rtol=0.1)
+    assert x[tip].min() > x[root & (x > WINGS.leading)].min() + 0.05  # swept
+    tail = x > TAILPLANE.leading
+    assert FUSELAGE.radius < np.abs(y[tail & ~tip]).max() < WINGS.span
+    assert z[tail].max() > 2 * FUSELAGE.radius > z[~tail].max()
+
+
+@pytest.mark.parametrize("size", [3000, pytest.param(8000, marks=pytest.mark.slow)])
+def test_local_descent_mends_all(size):
+    mesh = make("plane", size=size)
+    result = hx.smooth(mesh, "local-sd", StoppingCriteria(max_iterations=60))
+    before, after = summarise(mesh), summarise(result.mesh)
+    assert before.inverted > 10
+    assert after.inverted == 0
+    assert after.q_min > max(before.q_min, 0.35)
+    assert after.q_mean > before.q_mean + 0.04
+    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+
+
+# Kershaw's map: the identity at eps = 1, planes that stay, and a lattice as the optimum with sliding planes.
+
+
+def lattice(n):
+    axes = np.linspace(0, 1, n + 1)
+    return np.stack(np.meshgrid(axes, axes, axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+@pytest.mark.parametrize(("size", "n"), [(1, 6), (500, 6), (1728, 12), (3000, 12), (3500, 18), (13824, 24)])
+def test_the_size_is_that_of_the_nearest_multiple_of_six(size, n):
+    assert make("kershaw", size=size).n_hexes == n**3
+
+
+@pytest.mark.parametrize("eps", [0.1, 0.3, 0.7])
+def test_the_box_and_the_planes_of_x_stay_and_no_hex_is_inverted(eps):
+    given = lattice(12)
+    mapped = kershaw_map(given, eps)
+    np.testing.assert_array_equal(mapped[:, 0], given[:, 0])
+    for end in (0, 1):
+        np.testing.assert_allclose(mapped[given == end], end, atol=1e-15)
+    assert summarise(make("kershaw", size=1728, eps=eps)).inverted == 0
+
+
+def test_the_first_layer_is_left_and_the_last_is_right():
+    mapped = kershaw_map(np.array([[0, 0.5, 0.25], [1 / 6, 0.5, 0.25], [5 / 6, 0.5, 0.25], [1, 0.5, 0.25]]), 0.3)
+    assert mapped[:, 1] == pytest.approx([0.15, 0.15, 0.85, 0.85])
+    assert mapped[:, 2] == pytest.approx([0.075, 0.075, 0.425, 0.425])
+
+
+def test_the_least_scaled_jacobian_is_the_published_one():
+    assert summarise(make("kershaw", size=13824)).scaled_jacobian_min == pytest.approx(0.1660, abs=5e-5)

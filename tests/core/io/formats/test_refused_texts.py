@@ -6,8 +6,7 @@ import pytest
 from hexmend import FileError, io
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.io.formats.abaqus.test_abaqus import DECK, cube
-from tests.core.io.formats.gmsh.test_gmsh import HEAD, NODES
-from tests.core.io.formats.gmsh.test_version_1 import FIRST_VERSION
+from tests.core.io.formats.gmsh.test_gmsh import FIRST_VERSION, HEAD, NODES
 from tests.core.io.formats.nastran.test_nastran import CUBE, GRIDS
 from tests.core.io.formats.ovm.test_ovm import written
 from tests.core.io.formats.test_su2 import POINTS, ZONE
