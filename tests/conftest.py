@@ -73,6 +73,17 @@ def run_command(capsys) -> Callable[..., object]:
     return run
 
 
+@pytest.fixture
+def complaint(run_command) -> Callable[..., str]:
+    """Run a command that is refused; the one line that it says of that."""
+
+    def run(*words: object, status: int = 2) -> str:
+        (line,) = run_command(*words, status=status).err.splitlines()
+        return line
+
+    return run
+
+
 @pytest.fixture(scope="session")
 def real_mesh() -> Callable[[str], Path]:
     """The path of one of the real meshes; the test is skipped where they are absent."""

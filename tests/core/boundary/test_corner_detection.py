@@ -5,13 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import METHODS, Mesh, StoppingCriteria, smooth
+from hexmend import METHODS, Mesh, StoppingCriteria, read, smooth
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of, classify
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import bend_corners
 from hexmend.boundary.feature_edges.prominence import surrounding_angles
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
-from hexmend.io import read
 from hexmend.mesh.second_order import MID_EDGES
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import SkinSurface, SlidingBoundary
-from hexmend.boundary.classification import NodeClass, boundary_of
+from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary, boundary_of
 from hexmend.boundary.normals import curve_tangents, directions_of_means, segment_tangents, unit_vectors, vertex_normals
 from hexmend.boundary.sliding.quad_normals import QuadNormals
 from hexmend.gallery import make

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary import ClosestPointTrees, SkinSurface
 from hexmend.boundary.band import Band
-from hexmend.boundary.closest_point import ClosestPointTrees
 from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_faces import skin_faces
-from hexmend.boundary.skin_surface import SkinSurface
 from tests.core.grids import grid
 
 

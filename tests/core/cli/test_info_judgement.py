@@ -6,10 +6,9 @@ from shlex import quote
 import numpy as np
 import pytest
 
-from hexmend import Mesh, gallery, io, measure
+from hexmend import Mesh, gallery, io, measure, write
 from hexmend.cli.main import main
 from hexmend.gallery import make
-from hexmend.io import write
 from hexmend.solver_checks import QUOTED, SOLVERS
 from tests.core.doctor.faulty_meshes import bent
 

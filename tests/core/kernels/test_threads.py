@@ -1,10 +1,12 @@
 """How loops are shared: how many threads, what they are told by, and that nothing depends on their number."""
 
+import importlib.util
 import json
 import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -273,3 +275,21 @@ def test_kernels_that_are_not_built_are_one_line(tmp_path):
     assert len(done.stderr.splitlines()) == 1
     assert "kernels of Hexmend are not built" in done.stderr
     assert "g++" in done.stderr
+
+
+# The stubs of the compiled kernels are those of the module that is built.
+
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_the_stubs_say_what_the_module_has(tmp_path):
+    pytest.importorskip("nanobind")
+    spec = importlib.util.spec_from_file_location("kernel_stubs", ROOT / "scripts/kernel_stubs.py")
+    stubs = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(stubs)
+    written = stubs.write(tmp_path)
+    there = Path(kernels.__file__).parent
+    assert {path.name for path in written} == {path.name for path in there.glob("*.pyi")}
+    for path in written:
+        assert path.read_text() == (there / path.name).read_text(), f"{path.name}: run python scripts/kernel_stubs.py"

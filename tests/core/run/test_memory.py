@@ -140,11 +140,11 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     assert mesh_file.read_bytes() == before
 
 
-def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, run_command):
+def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, complaint):
     def ends(*arguments):
         raise MemoryError
 
     monkeypatch.setattr(METHODS["mend"], "steps", ends)
-    (line,) = run_command("smooth", mesh_file, "-o", tmp_path / "out.vtu", status=3).err.splitlines()
-    assert line.startswith("hexmend: not enough memory")
+    said = complaint("smooth", mesh_file, "-o", tmp_path / "out.vtu", status=3)
+    assert said.startswith("hexmend: not enough memory")
     assert not (tmp_path / "out.vtu").exists()

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import METHODS, Laplacian, LocalPatch, Mesh, StoppingCriteria, kernels, measure, smooth
+from hexmend import METHODS, Laplacian, LocalPatch, Mesh, StoppingCriteria, measure, smooth
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels import local
@@ -18,6 +18,7 @@ from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 from tests.core.grids import grid, scrambled
 from tests.core.smoothers.test_smoothers import after
+from tests.core.threads import by_threads
 
 SIZES = st.sampled_from([1, 2, 8, 27])
 OVERLAPS = st.sampled_from([0, 1])
@@ -195,13 +196,7 @@ def test_a_sweep_is_the_visit_of_one_node_after_another(name, order, seed, ampli
 @pytest.mark.parametrize("order", ["random", "worst-first"])
 def test_threads_do_not_matter(order):
     mesh = make("bridge-sharp", size=2048)
-    most = kernels.threads()
-    expected = after(mesh, METHODS["local-nr"](order=order), 3)
-    try:
-        kernels.set_threads(1 if most > 1 else 2)
-        np.testing.assert_array_equal(after(mesh, METHODS["local-nr"](order=order), 3), expected)
-    finally:
-        kernels.set_threads(most)
+    np.testing.assert_array_equal(*by_threads(lambda: after(mesh, METHODS["local-nr"](order=order), 3)))
 
 
 def test_natural_and_reverse_are_by_number():

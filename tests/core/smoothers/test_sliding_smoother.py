@@ -9,11 +9,12 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend import METHODS, Recipe, Stage, StoppingCriteria, io, iterate, kernels, measure, smooth
+from hexmend import METHODS, Recipe, Stage, StoppingCriteria, io, iterate, measure, smooth
 from hexmend.boundary import NodeClass, SlidingBoundary, surface_change
 from hexmend.report.records import record
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
+from tests.core.threads import by_threads
 
 SLIDING = sorted(name for name, cls in METHODS.items() if hasattr(cls, "boundary"))
 SOLIDS = {
@@ -78,16 +79,8 @@ def test_a_flat_solid_keeps_its_surface_and_volume(name):
 
 @pytest.mark.parametrize("name", SLIDING)
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
-    try:
-        for threads in (1, 3):
-            kernels.set_threads(threads)
-            steps = METHODS[name](boundary="slide").steps(mesh)
-            results.append(next(itertools.islice(steps, 3, None)).points)
-    finally:
-        kernels.set_threads(most)
-    for result in results[1:]:
-        np.testing.assert_array_equal(results[0], result)
+    mesh, method = slid(cylinder(32, 3), 0.3), METHODS[name](boundary="slide")
+    np.testing.assert_array_equal(*by_threads(lambda: next(itertools.islice(method.steps(mesh), 3, None)).points))
 
 
 @given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))

@@ -5,8 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
+import hexmend as hx
 from hexmend import METHODS, Laplacian, LocalSteepestDescent, Outcome, SmartLaplacian, StoppingCriteria, measure, smooth
 from hexmend.gallery import make
+from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.general import edge_length_ratio
 from hexmend.smoothers.local import single_node
 from hexmend.smoothers.sliding_smoother import PATIENCE, Sweeps
@@ -61,16 +63,6 @@ def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
     assert asked == [0]
     next(steps), next(steps)
     assert asked == [0, 0, 1]
-
-
-@pytest.mark.parametrize("exponent", [0.0, 1.0, 3.0])
-def test_weights_of_getme_are_those_of_the_paper_and_never_nothing(exponent):
-    q = np.array([0.0, 0.19, 0.75, 1.0])
-    weigh = METHODS["getme"](weights="paper", exponent=exponent).hex_weights
-    np.testing.assert_allclose(weigh(q)[:3], (1 - q[:3]) ** (exponent / 2))
-    assert (weigh(q) > 0).all()
-    np.testing.assert_allclose(METHODS["getme"]().hex_weights(q), [10, 0.19**-0.5, 0.75**-0.5, 1])
-    assert METHODS["getme"](weights="equal").hex_weights(q).tolist() == [1, 1, 1, 1]
 
 
 # Cost of a sweep over nodes that have converged.
@@ -201,3 +193,28 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
     getme = smooth(mesh, "getme", StoppingCriteria(max_iterations=7, tolerance=0))
     assert run.history[7]["objective"] == getme.history[7]["objective"]
     assert measure(run.mesh.points, mesh.hexes).n_inverted == 0
+
+
+# A run never ends with more invalid hexes, and mend with a lower least scaled Jacobian while hexes stay inverted.
+
+
+GOALS = ("balanced", "shape", "scaled-jacobian", "time-step")
+
+
+def pinned_tangle(seed):
+    """Make a tangled grid of 27 hexes with half of its inner nodes pinned, so that no method makes all hexes valid."""
+    mesh = scrambled(grid(3), 1.0, seed)
+    return mesh.replace(pinned=mesh.free & (np.random.default_rng(seed).random(mesh.n_nodes) < 0.5))
+
+
+@pytest.mark.parametrize("seed", [3, 7])  # one with a locked hex, one without
+@pytest.mark.parametrize(
+    ("method", "options"),
+    [*((name, {}) for name in METHODS if name != "mend"), *(("mend", {"goal": goal}) for goal in GOALS)],
+)
+def test_no_more_hexes_are_invalid_and_the_least_of_mend_is_not_lower(method, options, seed):
+    result = hx.smooth(pinned_tangle(seed), method, max_iterations=40, **options)
+    assert result.after.inverted > 0
+    if method == "mend":
+        assert result.after.scaled_jacobian_min >= result.before.scaled_jacobian_min - WORSE_BY
+    assert result.after.invalid <= result.before.invalid

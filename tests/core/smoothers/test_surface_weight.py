@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import METHODS, StoppingCriteria, Target, iterate, kernels, smooth
+from hexmend import METHODS, StoppingCriteria, Target, iterate, smooth
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import FixedDelta, ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
@@ -15,6 +15,7 @@ from hexmend.quality import measure, objective
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import displaced, grid
 from tests.core.linear_motions import planes
+from tests.core.threads import by_threads
 
 WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
 DESCENTS = [name for name in WEIGHTED if name != "local-patch"]
@@ -133,14 +134,8 @@ def test_local_and_global_steps_reach_the_same_optimum():
 
 @pytest.mark.parametrize("name", ["local-nr", "global-nr"])
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
-    try:
-        for threads in (1, 3):
-            kernels.set_threads(threads)
-            results.append(next(itertools.islice(sliding(name, 1.0).steps(mesh), 3, None)).points)
-    finally:
-        kernels.set_threads(most)
-    np.testing.assert_array_equal(*results)
+    mesh, method = slid(cylinder(32, 3), 0.3), sliding(name, 1.0)
+    np.testing.assert_array_equal(*by_threads(lambda: next(itertools.islice(method.steps(mesh), 3, None)).points))
 
 
 @pytest.mark.parametrize("name", ["local-nr", "global-nr"])

@@ -173,11 +173,10 @@ def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, cap
     (["{file}", "-o", "{folder}", "--methods", "{recipe}"], 2, "there is no target 'bar'"),
     (["{file}", "-o", "{folder}", "--fix", "nowhere"], 3, "'nowhere'"),
 ])  # fmt: skip
-def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, run_command):
+def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, complaint):
     write_recipe(tmp_path / "chain.toml", Recipe.of("laplacian", METHODS["mend"](target="bar")))
     words = [word.format(file=file, folder=tmp_path / "tables", recipe=tmp_path / "chain.toml") for word in words]
-    (line,) = run_command("compare", *words, status=status).err.splitlines()
-    assert message in line
+    assert message in complaint("compare", *words, status=status)
     assert not (tmp_path / "tables").exists()
 
 

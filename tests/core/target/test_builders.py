@@ -7,11 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.errors import ParameterError
+from hexmend import Mesh, ParameterError, measure
 from hexmend.gallery import make
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from hexmend.target import SPECIFICATIONS, given_lengths, make_target, recovered_lengths
 from hexmend.target.edge_lengths import edge_numbers
 from hexmend.target.formula import FUNCTIONS, evaluate

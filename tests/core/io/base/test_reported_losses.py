@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import Cells, io
-from hexmend.errors import FileError
+from hexmend import Cells, FileError, io
 from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.content import Block
 from hexmend.io.base.numbering import element_ids, find_ids, node_ids, runs, set_combinations

@@ -131,6 +131,10 @@ def test_weights_are_their_formulas():
     np.testing.assert_allclose(GETMe().hex_weights(q), [10, 10, 2, 1])
     np.testing.assert_allclose(GETMe(weights="paper", exponent=4.0).hex_weights(q), [1, 0.995**2, 0.75**2, 1e-24])
     np.testing.assert_allclose(GETMe(weights="paper", exponent=0.0).hex_weights(q), np.ones(4))
+    for exponent in (1.0, 3.0):
+        weights = GETMe(weights="paper", exponent=exponent).hex_weights(q)
+        np.testing.assert_allclose(weights[:3], (1 - q[:3]) ** (exponent / 2))
+        assert weights[3] > 0  # never nothing
     assert GETMe(weights="equal").hex_weights(q).tolist() == [1, 1, 1, 1]
 
 

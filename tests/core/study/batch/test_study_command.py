@@ -154,12 +154,11 @@ def test_an_interrupted_study_writes_the_finished_tasks(laboratory):
     (["none.toml", "cube.vtk"], 3, "none.toml: there is no such file"),
     (["recipe.toml", "cube.vtk", "-o", "cube.vtk"], 3, "cube.vtk: is a file"),
 ])  # fmt: skip
-def test_wrong_usage_is_one_line_before_the_work(laboratory, monkeypatch, run_command, words, status, said):
+def test_wrong_usage_is_one_line_before_the_work(laboratory, monkeypatch, complaint, words, status, said):
     laboratory.mesh()
     laboratory.recipe('methods = ["laplacian"]')
     monkeypatch.chdir(laboratory.folder)
-    (line,) = run_command("study", *words, status=status).err.splitlines()
-    assert said in line
+    assert said in complaint("study", *words, status=status)
     assert not (laboratory.folder / "recipe").exists()
 
 
