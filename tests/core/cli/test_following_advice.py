@@ -5,11 +5,10 @@ import shlex
 import numpy as np
 import pytest
 
-from hexmend import METHODS, MotionRules, Recipe, StoppingCriteria, io, summarise, write_recipe
+from hexmend import METHODS, MotionRules, Recipe, StoppingCriteria, gallery, io, summarise, write_recipe
 from hexmend.advice import Suggestion
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
 from hexmend.cli.main import main
-from hexmend.gallery import make
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import displaced, grid, invalid_inside
 
@@ -29,19 +28,19 @@ RUNS = {
     "a set with a hyphen is kept": (folded, ["--fix", "middle", "--fix=-odd name"]),
     "a part is too small": (folded, ["--only", "some", "--rings", "0", "--as-is"]),
     "a part within one layer": (
-        lambda: make("five-side", size=100, scramble=1.5).replace(hex_sets={"some": np.arange(20)}),
+        lambda: gallery.make("five-side", size=100, scramble=1.5).replace(hex_sets={"some": np.arange(20)}),
         ["--only", "some", "--rings=0"],
     ),
     "a part and a set": (folded, ["--only", "some", "--fix", "middle"]),
     "a heuristic with a sliding boundary": (
-        lambda: make("bridge-sharp", size=250, scramble=1.0),
+        lambda: gallery.make("bridge-sharp", size=250, scramble=1.0),
         ["--method", "laplacian", "--boundary", "slide", "--max-iterations", "2", "--keep-last"],
     ),
-    "cut short": (lambda: make("five-side", size=300, scramble=1.5), ["--max-iterations", "2", "--target", "0.1 + x*x"]),
+    "cut short": (lambda: gallery.make("five-side", size=300, scramble=1.5), ["--max-iterations", "2", "--target", "0.1 + x*x"]),
     "a boundary that is folded": (lambda: slid(ball(3), 0.6, seed=0), []),
-    "no delta": (lambda: make("five-side", size=300, scramble=1.5), ["--method", "global-sd", "--set", "delta=0"]),
+    "no delta": (lambda: gallery.make("five-side", size=300, scramble=1.5), ["--method", "global-sd", "--set", "delta=0"]),
     "worse than before": (
-        lambda: make("bridge-sharp", size=864),
+        lambda: gallery.make("bridge-sharp", size=864),
         ["--method", "laplacian", "--keep-last", "--max-iterations", "20"],
     ),
 }  # fmt: skip

@@ -8,7 +8,6 @@ import pytest
 
 from hexmend import Mesh, gallery, io, measure, write
 from hexmend.cli.main import main
-from hexmend.gallery import make
 from hexmend.solver_checks import QUOTED, SOLVERS
 from tests.core.doctor.faulty_meshes import bent
 
@@ -92,7 +91,7 @@ def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, caps
 @pytest.fixture
 def kershaw(tmp_path):
     path = tmp_path / "kershaw.vtk"
-    write(path, make("kershaw", size=1728))
+    write(path, gallery.make("kershaw", size=1728))
     return path
 
 

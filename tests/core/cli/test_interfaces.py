@@ -7,7 +7,6 @@ import pytest
 
 from hexmend import gallery, io, read, read_recipe, smooth, write
 from hexmend.cli.main import main
-from hexmend.gallery import make
 from hexmend.quality.corner_heights import least_heights
 from tests.core.grids import grid, scrambled
 
@@ -170,7 +169,7 @@ def test_options_without_effect_are_named(tmp_path, run_command):
 @pytest.fixture
 def mesh(tmp_path):
     path = tmp_path / "cube.vtk"
-    write(path, make("cube", size=64, scramble=0.3))
+    write(path, gallery.make("cube", size=64, scramble=0.3))
     return path
 
 

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from hexmend import ParameterError, io, read, write
+from hexmend import ParameterError, gallery, io, read, write
 from hexmend.cli.commands.smooth import checkpoint
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.main import main
 from hexmend.cli.output import mesh_output
-from hexmend.gallery import make
 from hexmend.io import files
 from hexmend.io.coordinates.located import CoordinatesError
 
@@ -18,7 +17,7 @@ END = "*MATERIAL, NAME=Steel\n*STEP\n** the end\n*END STEP\n"
 @pytest.fixture
 def deck(tmp_path):
     path = tmp_path / "deck.inp"
-    io.write(path, make("bridge-sharp", size=300, scramble=0.3, seed=1))
+    io.write(path, gallery.make("bridge-sharp", size=300, scramble=0.3, seed=1))
     path.write_text("** ours\n" + path.read_text() + END)
     return path
 
@@ -85,7 +84,7 @@ PROPERTY = 'HFProp bool "marked"\n'
 @pytest.mark.parametrize("command", ["smooth", "pad", "repair"])
 def test_a_file_of_a_format_that_is_written_anew_keeps_what_was_not_read(command, tmp_path, capsys):
     path, spare = tmp_path / "a.ovm", tmp_path / "a-hexmend.ovm"
-    io.write(path, make("cube", size=27, scramble=0.2))
+    io.write(path, gallery.make("cube", size=27, scramble=0.2))
     plain = path.read_text()
     path.write_text(plain + PROPERTY + "1\n" * 216)
     before = path.read_bytes()
@@ -144,7 +143,7 @@ def test_no_command_overwrites_a_file_that_the_deck_includes(deck, words, run_co
 
 def test_what_is_not_read_but_kept_in_the_copy_is_called_so(tmp_path, run_command):
     deck = tmp_path / "deck.inp"
-    io.write(deck, make("cube", size=8))
+    io.write(deck, gallery.make("cube", size=8))
     deck.write_text(deck.read_text() + "*MATERIAL, NAME=STEEL\n")
     for out, note in (("out.inp", "Kept without being read: "), ("out.vtu", "Not read: ")):
         assert (
@@ -156,7 +155,7 @@ def test_what_is_not_read_but_kept_in_the_copy_is_called_so(tmp_path, run_comman
 # Checkpoints of a run: when they are due, what they hold, and that they go once the result is there.
 
 
-MESH = make("cube", size=8)
+MESH = gallery.make("cube", size=8)
 
 
 def test_one_is_due_after_each_interval(tmp_path, monkeypatch):
@@ -190,7 +189,7 @@ def test_minutes_are_positive(minutes):
 
 def test_a_run_of_one_process_writes_them_and_removes_the_last(tmp_path, monkeypatch, capsys):
     given, out, written = tmp_path / "given.vtu", tmp_path / "out.vtu", []
-    write(given, make("five-side", size=200, scramble=0.2))
+    write(given, gallery.make("five-side", size=200, scramble=0.2))
     monkeypatch.setattr(checkpoint, "write", lambda path, mesh: written.append(mesh) or write(path, mesh))
     assert main(["smooth", str(given), "-o", str(out), "--checkpoint", "1e-9"]) == 0
     assert len(written) > 3
@@ -200,7 +199,7 @@ def test_a_run_of_one_process_writes_them_and_removes_the_last(tmp_path, monkeyp
 
 def test_a_file_that_is_there_already_is_never_overwritten_nor_removed(tmp_path):
     given, earlier = tmp_path / "out.checkpoint.vtu", tmp_path / "out.checkpoint-2.vtu"
-    write(given, make("five-side", size=200, scramble=0.2))
+    write(given, gallery.make("five-side", size=200, scramble=0.2))
     before = given.read_bytes()
     earlier.write_text("of another run")
     assert main(["smooth", str(given), "-o", str(tmp_path / "out.vtu"), "--checkpoint", "1e-9"]) == 0
@@ -211,7 +210,7 @@ def test_a_file_that_is_there_already_is_never_overwritten_nor_removed(tmp_path)
 
 def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monkeypatch, run_command):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
-    write(given, make("five-side", size=200, scramble=0.2))
+    write(given, gallery.make("five-side", size=200, scramble=0.2))
 
     def full(path, mesh):
         raise OSError(28, "No space left on device")

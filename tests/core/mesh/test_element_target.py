@@ -5,13 +5,12 @@ import copy
 import numpy as np
 import pytest
 
-from hexmend import MeshError, Target
-from hexmend.gallery import make
+from hexmend import MeshError, Target, gallery
 
 
 @pytest.fixture
 def mesh():
-    return make("cube", size=8)
+    return gallery.make("cube", size=8)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.scale import launching
-from hexmend import Mesh, measure, read, summarise, write
-from hexmend.gallery import make
+from hexmend import Mesh, gallery, measure, read, summarise, write
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
 from tests.core.doctor.faulty_meshes import bent
 
@@ -38,7 +37,7 @@ def figures(path):
 @pytest.fixture
 def tangled(tmp_path):
     path = tmp_path / "given.vtu"
-    write(path, make("five-side", size=1500, scramble=0.3))
+    write(path, gallery.make("five-side", size=1500, scramble=0.3))
     assert figures(path)[0] > 5
     return path
 
@@ -66,7 +65,7 @@ def test_floors_rise_on_several_ranks(tangled, tmp_path):
 @pytest.mark.slow
 def test_a_boundary_that_slides_on_planes_reaches_the_lattice(tmp_path):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
-    write(given, make("kershaw", size=216))
+    write(given, gallery.make("kershaw", size=216))
     run = on_ranks(3, given, "-o", out, "--boundary", "slide", "--goal", "shape", "--tolerance", "1e-10")
     assert run.returncode == 0, run.stderr
     x = 6 * read(out).points
@@ -91,7 +90,7 @@ def write_surface(path, mesh):
 @pytest.mark.slow
 def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_path):
     given, surface = tmp_path / "given.vtu", tmp_path / "box.obj"
-    mesh, box = make("kershaw", size=216), make("cube", size=27)
+    mesh, box = gallery.make("kershaw", size=216), gallery.make("cube", size=27)
     corners = np.isin(mesh.points, (0, 1)).all(axis=1)
     moved = mesh.topology.boundary & ~corners
     points = mesh.points.copy()  # off the surface, onto which the run puts all nodes but corners
@@ -111,7 +110,7 @@ def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_pat
 @needs_mpi
 @pytest.mark.slow
 def test_a_boundary_slides_on_a_curved_surface_of_a_file_as_in_one_process(tangled, tmp_path):
-    write_surface(tmp_path / "fine.obj", make("five-side", size=6000))
+    write_surface(tmp_path / "fine.obj", gallery.make("five-side", size=6000))
     reaches_the_optimum_of_one_process(
         tangled, tmp_path, 3, "shape", 5e-3, "--surface", tmp_path / "fine.obj", "--layers", "off"
     )
@@ -212,7 +211,7 @@ sys.exit(main(["smooth", sys.argv[1], "-o", sys.argv[2]]))
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_parts_cover_the_mesh_once(count):
-    mesh = make("five-side", size=500, scramble=0.1)
+    mesh = gallery.make("five-side", size=500, scramble=0.1)
     owner = owners_of_nodes(mesh, divide(mesh, count))
     parts = list(arrays_of_parts(mesh, owner, count))
     assert sum(part["counted"].sum() for part in parts) == mesh.n_hexes

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import METHODS, Recipe, Run, Stage, advise, measure, smooth
-from hexmend.gallery import make
+from hexmend import METHODS, Recipe, Run, Stage, advise, gallery, measure, smooth
 from hexmend.layers import find_layers, grading_message
 from hexmend.report.records import record
 from hexmend.target import given_lengths
@@ -108,8 +107,8 @@ def test_a_great_change_of_edge_lengths_is_said():
 
 @pytest.mark.slow
 def test_scrambled_layers_of_the_gallery_come_back():
-    sound = make("layered", size=4000)
-    result = smooth(make("layered", size=4000, scramble=0.6))
+    sound = gallery.make("layered", size=4000)
+    result = smooth(gallery.make("layered", size=4000, scramble=0.6))
     (wall,) = result.layers
     assert result.after.inverted == 0
     assert wall.after.first_height_mean == pytest.approx(1e-4, rel=0.01)

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import METHODS, Mesh, Outcome, Recipe, Stage, StoppingCriteria, iterate, smooth
-from hexmend.gallery import make
+from hexmend import METHODS, Mesh, Outcome, Recipe, Stage, StoppingCriteria, gallery, iterate, smooth
 from hexmend.report.records import record, to_json
 from tests.core.grids import grid
 
@@ -17,7 +16,7 @@ def stage(name, most=4, **parameters):
 
 @pytest.fixture(scope="module")
 def mesh():
-    return make("cube", size=125, scramble=0.5)
+    return gallery.make("cube", size=125, scramble=0.5)
 
 
 def test_the_stages_are_what_the_methods_do_one_after_another(mesh):
@@ -76,7 +75,7 @@ def test_a_stage_that_has_nothing_to_do_is_passed_over(mesh, idle):
 
 
 def test_a_stage_that_cannot_step_is_passed_over():
-    tangled = make("cube", size=125, scramble=2.0)
+    tangled = gallery.make("cube", size=125, scramble=2.0)
     run = iterate(tangled, Recipe.of(METHODS["global-sd"](delta=0.0), "mend"))  # on tangled hexes delta = 0 is infinite
     assert next(run).number == 1
     for _ in run:

@@ -8,9 +8,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from hexmend import METHODS, Outcome, StoppingCriteria, iterate, measure, smooth
+from hexmend import METHODS, Outcome, StoppingCriteria, gallery, iterate, measure, smooth
 from hexmend.energy import SQUARES, ObjectiveNorm, objective
-from hexmend.gallery import make
 from hexmend.kernels import local
 from hexmend.kernels.line_search import LineSearch
 from hexmend.parameters import declared
@@ -32,7 +31,7 @@ def made(name, **values):
 
 @pytest.fixture(scope="module", params=["five-side", "bridge-sharp", "cube"])
 def problem(request):
-    mesh = make(request.param, size=120, scramble=0.0 if request.param == "bridge-sharp" else 0.15, seed=2)
+    mesh = gallery.make(request.param, size=120, scramble=0.0 if request.param == "bridge-sharp" else 0.15, seed=2)
     assert measure(mesh.points, mesh.hexes).n_inverted == 0
     return mesh, smooth(mesh, "local-mnr", PATIENT).mesh.points
 
@@ -55,7 +54,7 @@ def test_all_optimisers_end_at_the_same_point(name, problem):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in OPTIMISERS if name != "global-sd"])  # 20,000 steps are not enough
 def test_the_optimum_of_another_exponent_is_another_and_all_agree_on_it(name):
-    mesh = make("five-side", size=60, scramble=0.1, seed=1)
+    mesh = gallery.make("five-side", size=60, scramble=0.1, seed=1)
     expected = smooth(mesh, made("local-mnr", p=6.0), PATIENT).mesh.points
     other = smooth(mesh, "local-mnr", PATIENT).mesh.points
     assert np.abs(expected - other).max() > 1e-2 * mesh.mean_edge_length
@@ -83,7 +82,7 @@ def test_no_accepted_step_inverts_a_valid_mesh_or_climbs(name, seed, amplitude, 
 
 @pytest.mark.parametrize("name", [name for name in OPTIMISERS if name.startswith("global")])
 def test_a_barrier_that_is_not_softened_is_said(name):
-    tangled = make("cube", size=64, scramble=1.0, seed=1)
+    tangled = gallery.make("cube", size=64, scramble=1.0, seed=1)
     result = smooth(tangled, made(name, delta=0.0))
     assert result.outcome is Outcome.NO_DESCENT
     assert result.iterations == 0
@@ -91,7 +90,7 @@ def test_a_barrier_that_is_not_softened_is_said(name):
 
 @pytest.mark.parametrize("name", OPTIMISERS)
 def test_the_adaptive_delta_untangles_and_ends_at_the_same_optimum(name):
-    mesh = make("cube", size=64, scramble=1.5, seed=3)
+    mesh = gallery.make("cube", size=64, scramble=1.5, seed=3)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
     smoother = made(name, delta_policy="adaptive", getme_iterations=0)
     after = smooth(mesh, smoother, StoppingCriteria(max_iterations=2000, tolerance=1e-6)).after
@@ -120,7 +119,7 @@ def test_local_and_global_methods_go_to_the_same_optimum_whatever_the_offset(off
 
 
 def test_each_offset_has_the_lower_objective_of_its_kind_and_zero_the_higher_mean():
-    mesh = make("five-side", size=500)
+    mesh = gallery.make("five-side", size=500)
     ones, zeros = best(mesh, "mend", 1.0), best(mesh, "mend", 0.0)
 
     def value(mesh, offset):
@@ -169,7 +168,7 @@ def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
 @pytest.mark.parametrize("direction", local.Direction)
 @pytest.mark.parametrize("c1", [1e-4, 0.5])
 def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
-    mesh = make("five-side", size=150, scramble=0.5, seed=3)
+    mesh = gallery.make("five-side", size=150, scramble=0.5, seed=3)
     corners, hexes, cut = mesh.topology.node_corners, mesh.hexes, 0
     first = 30.0 if direction is local.Direction.STEEPEST_DESCENT else 1.5  # far enough to gain too little
     for node in np.flatnonzero(mesh.free):
@@ -187,7 +186,7 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
 
 
 def test_a_step_in_the_units_of_the_mesh_is_longer_by_the_square_of_its_edges():
-    mesh, descent = make("five-side", size=500), METHODS["global-sd"]
+    mesh, descent = gallery.make("five-side", size=500), METHODS["global-sd"]
     unit = mesh.mean_edge_length
 
     def third(method, of):

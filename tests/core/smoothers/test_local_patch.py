@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import METHODS, Laplacian, LocalPatch, Mesh, StoppingCriteria, measure, smooth
+from hexmend import METHODS, Laplacian, LocalPatch, Mesh, StoppingCriteria, gallery, measure, smooth
 from hexmend.energy import MeshEnergy
-from hexmend.gallery import make
 from hexmend.kernels import local
 from hexmend.kernels.local import Direction, NodeStepSettings
 from hexmend.kernels.patches import sweep
@@ -129,7 +128,7 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
 
 @pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 1), (64, 0), (216, 1)])
 def test_a_tangled_cube_becomes_the_perfect_grid(size, overlap):
-    mesh = make("cube", size=216, scramble=0.9, seed=2)
+    mesh = gallery.make("cube", size=216, scramble=0.9, seed=2)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
     result = smooth(mesh, LocalPatch(patch=size, overlap=overlap), StoppingCriteria(tolerance=1e-7))
     assert result.after.inverted == 0
@@ -195,7 +194,7 @@ def test_a_sweep_is_the_visit_of_one_node_after_another(name, order, seed, ampli
 
 @pytest.mark.parametrize("order", ["random", "worst-first"])
 def test_threads_do_not_matter(order):
-    mesh = make("bridge-sharp", size=2048)
+    mesh = gallery.make("bridge-sharp", size=2048)
     np.testing.assert_array_equal(*by_threads(lambda: after(mesh, METHODS["local-nr"](order=order), 3)))
 
 

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend import METHODS, measure
-from hexmend.gallery import make
+from hexmend import METHODS, gallery, measure
 from hexmend.parameters import declared, from_strings
 from tests.core.grids import grid, scrambled
 from tests.core.threads import by_threads
@@ -85,7 +84,7 @@ def test_numbering_of_hexes_does_not_matter_much(name):
 
 
 def test_quality_rises_on_a_scrambled_gallery_mesh(name):
-    mesh = make("five-side", size=500, scramble=0.25, seed=1)
+    mesh = gallery.make("five-side", size=500, scramble=0.25, seed=1)
     before = measure(mesh.points, mesh.hexes).q
     after = measure(points_after(mesh, METHODS[name](), 20)[-1], mesh.hexes).q
     assert after.mean() > before.mean() + 0.01 or after.min() > before.min() + 0.05  # some raise the worst alone

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import Mesh, ParameterError, measure
-from hexmend.gallery import make
+from hexmend import Mesh, ParameterError, gallery, measure
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.target import SPECIFICATIONS, given_lengths, make_target, recovered_lengths
 from hexmend.target.edge_lengths import edge_numbers
@@ -89,7 +88,7 @@ def test_the_range_of_lengths_is_relative_to_the_mesh():
 
 
 def test_lengths_of_a_sound_mesh_are_as_given_to_the_last_bit():
-    for mesh in (stack(), make("five-side", size=500), make("layered", size=2000)):
+    for mesh in (stack(), gallery.make("five-side", size=500), gallery.make("layered", size=2000)):
         np.testing.assert_array_equal(recovered_lengths(mesh), given_lengths(mesh))
 
 
@@ -125,7 +124,7 @@ def test_meshes_that_are_sound_keep_their_lengths(name, sample_mesh):
 
 
 def test_a_badly_tangled_mesh_has_positive_lengths():
-    lengths = recovered_lengths(make("cube", size=216, scramble=5.0))
+    lengths = recovered_lengths(gallery.make("cube", size=216, scramble=5.0))
     assert (lengths > 0).all()
     assert np.isfinite(lengths).all()
 
@@ -149,7 +148,7 @@ def test_lengths_are_positive_where_a_hex_has_none():
 
 
 def test_every_edge_of_a_hex_has_its_number():
-    mesh = make("five-side", size=500)
+    mesh = gallery.make("five-side", size=500)
     numbers = edge_numbers(mesh.topology)
     ends = np.sort(mesh.hexes[:, EDGES], axis=2)
     np.testing.assert_array_equal(mesh.topology.edges[numbers], ends)

@@ -8,8 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from hexmend import METHODS, Outcome, StoppingCriteria, measure, smooth
-from hexmend.gallery import make
+from hexmend import METHODS, Outcome, StoppingCriteria, gallery, measure, smooth
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.smoothers.getme.sequential import HALVINGS
@@ -103,7 +102,7 @@ def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
 
 @pytest.mark.parametrize("mesh", [("five-side", 920), ("bridge-sharp", 500)], ids=lambda m: m[0])
 def test_the_second_stage_raises_q_min_over_the_first(mesh):
-    first = smooth(make(mesh[0], size=mesh[1]), "getme")
+    first = smooth(gallery.make(mesh[0], size=mesh[1]), "getme")
     second = smooth(first.mesh, "getme-sequential")
     assert second.outcome is Outcome.NO_IMPROVEMENT
     assert second.after.q_min > first.after.q_min + 0.002

@@ -4,8 +4,7 @@ import json
 
 import pytest
 
-from hexmend import FileError, io
-from hexmend.gallery import make
+from hexmend import FileError, gallery, io
 from hexmend.study.batch.mesh_files import find_meshes
 from hexmend.study.batch.table_columns import COLUMNS, Status, answer, is_answer
 from hexmend.study.batch.task import Store, Task
@@ -85,7 +84,7 @@ def test_columns_have_types_that_both_tables_know():
 
 
 def test_meshes_are_found_in_subfolders_and_cases_are_one_mesh(tmp_path):
-    cube = make("cube", size=8)
+    cube = gallery.make("cube", size=8)
     (tmp_path / "b").mkdir()
     io.write(tmp_path / "b/cube.vtu", cube)
     io.write(tmp_path / "a.msh", cube)
@@ -103,8 +102,8 @@ def test_meshes_are_found_in_subfolders_and_cases_are_one_mesh(tmp_path):
 
 
 def test_pieces_of_a_file_are_no_meshes_of_their_own(tmp_path):
-    io.write(tmp_path / "whole.pvtu", make("cube", size=8))
-    io.write(tmp_path / "whole" / "other.vtu", make("cube", size=8))
+    io.write(tmp_path / "whole.pvtu", gallery.make("cube", size=8))
+    io.write(tmp_path / "whole" / "other.vtu", gallery.make("cube", size=8))
     (tmp_path / "torn.pvtu").write_text("<VTKFile")
     names = [str(path.relative_to(tmp_path)) for path in find_meshes([tmp_path])]
     assert names == ["torn.pvtu", "whole/other.vtu", "whole.pvtu"]
