@@ -8,10 +8,7 @@ from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QLabel, QWidget
 
-from hexmend import io
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Stage, StoppingCriteria, io
 from hexmend_app.state.run.run_controller import Phase
 
 LEFT = Qt.MouseButton.LeftButton

@@ -124,7 +124,7 @@ def test_options_alone_are_saved_as_a_scene_that_draws_the_same(render, tmp_path
     assert np.array_equal(np.asarray(image), np.asarray(again))
 
 
-def test_a_cut_that_names_hexes_shows_these(render, tmp_path, capsys):
+def test_a_cut_that_names_hexes_shows_these(render, tmp_path, run_command):
     def drawn(hexes, name):
         cut = Cut((Plane((0, 0, 1), 0),), hexes=hexes)
         write_scene(tmp_path / "scene.toml", Scene(cut=cut, page=Page(pixels=(200, 150))))
@@ -132,15 +132,19 @@ def test_a_cut_that_names_hexes_shows_these(render, tmp_path, capsys):
 
     assert np.abs(drawn("0-8", "p.png") - drawn("0-26", "q.png")).mean() > 1
     write_scene(tmp_path / "scene.toml", Scene(cut=Cut((Plane(),), hexes="0-27")))
-    assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2
-    assert "[cut] names hex 27: expected one of the mesh, below 27" in capsys.readouterr().err
+    printed = run_command(
+        "render", tmp_path / "mesh.vtu", "--scene", tmp_path / "scene.toml", "-o", "p.png", status=2
+    ).err
+    assert "[cut] names hex 27: expected one of the mesh, below 27" in printed
 
 
-def test_displacements_start_at_the_first_mesh(render, tmp_path, capsys):
+def test_displacements_start_at_the_first_mesh(render, tmp_path, run_command):
     write_scene(tmp_path / "scene.toml", Scene(colours=Colours("moved-most", range=Range.FITTED)))
     render("--size", "200x120", meshes=2)
-    assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2
-    assert "name the mesh before the movement first, then the mesh" in capsys.readouterr().err
+    printed = run_command(
+        "render", tmp_path / "mesh.vtu", "--scene", tmp_path / "scene.toml", "-o", "p.png", status=2
+    ).err
+    assert "name the mesh before the movement first, then the mesh" in printed
 
 
 @pytest.mark.parametrize(
@@ -157,8 +161,7 @@ def test_displacements_start_at_the_first_mesh(render, tmp_path, capsys):
         (["--save-scene", "scene.json"], 3, "a scene cannot be written as .json"),
     ],
 )
-def test_errors_are_reported_before_anything_is_written(tmp_path, capsys, words, status, said):
+def test_errors_are_reported_before_anything_is_written(tmp_path, run_command, words, status, said):
     write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.png"), *words]) == status
-    assert said in capsys.readouterr().err
+    assert said in run_command("render", tmp_path / "mesh.vtu", "-o", tmp_path / "p.png", *words, status=status).err
     assert not (tmp_path / "p.png").exists()

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from hexmend.errors import ParameterError
-from hexmend.run import StoppingCriteria
+from hexmend import ParameterError, StoppingCriteria
 from hexmend_app.codec.codec import Codec, TypeAdapter
 from hexmend_app.codec.conversion import DecodeError
 from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from hexmend.errors import FileError, ParameterError
-from hexmend.run.recipe import Recipe
+from hexmend import FileError, ParameterError, Recipe
 from hexmend_app.picture import Cut, Page, PicturePanel, Plane, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, digest, read_metadata, with_metadata
 from hexmend_app.picture.png_text import is_png, texts

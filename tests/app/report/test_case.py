@@ -5,10 +5,8 @@ import signal
 
 import pytest
 
-from hexmend import gallery
+from hexmend import METHODS, Run, StoppingCriteria, gallery
 from hexmend.cli.process.interrupts import ExitAfterIteration
-from hexmend.run import Run, StoppingCriteria
-from hexmend.smoothers import METHODS
 from hexmend_app.report import case
 from hexmend_app.report.case import run_methods
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hexmend import gallery
-from hexmend.quality import measure
+from hexmend import gallery, measure
 from hexmend_app.report.worst_hexes import Locked, reason, worst_table
 
 

@@ -10,10 +10,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QFileDialog
 
 import hexmend_app.features
-from hexmend import gallery
+from hexmend import METRICS, gallery, write
 from hexmend.cli.main import main
-from hexmend.io import write
-from hexmend.quality import METRICS
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window

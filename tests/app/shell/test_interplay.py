@@ -5,11 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from hexmend import io
-from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane
 from tests.app.driving import LEFT, key, move, open_mesh, pixels

@@ -69,10 +69,8 @@ def test_repair_does_not_replace_a_deck_by_one_without_its_materials(deck, tmp_p
     assert "Repaired" not in said.out
     assert deck.read_bytes() == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.inp"]
-    assert (
-        "other than the mesh: keywords that define no mesh (*MATERIAL, *STEP, *END STEP); comments."
-        in run_command("repair", deck, "-o", tmp_path / "other.inp").err
-    )
+    printed = run_command("repair", deck, "-o", tmp_path / "other.inp").err
+    assert "other than the mesh: keywords that define no mesh (*MATERIAL, *STEP, *END STEP); comments." in printed
     assert deck.read_bytes() == before
     assert main(["repair", str(deck), "-o", str(deck), "--rewrite"]) == 0
     assert io.read(deck).n_nodes == io.read(tmp_path / "other.inp").n_nodes
@@ -134,10 +132,8 @@ def test_no_command_overwrites_a_file_that_the_deck_includes(deck, words, run_co
     deck.write_text(f"{head}*INCLUDE, INPUT=nodes.inp\n{rest[end:]}")
     before = {path.name: path.read_bytes() for path in deck.parent.iterdir()}
     command, *options = words
-    assert (
-        "nodes.inp: is included by deck.inp. Choose another name."
-        in run_command(command, deck, "-o", deck.with_name("nodes.inp"), *options, status=3).err
-    )
+    printed = run_command(command, deck, "-o", deck.with_name("nodes.inp"), *options, status=3).err
+    assert "nodes.inp: is included by deck.inp. Choose another name." in printed
     assert before == {path.name: path.read_bytes() for path in deck.parent.iterdir()}
 
 
@@ -146,10 +142,8 @@ def test_what_is_not_read_but_kept_in_the_copy_is_called_so(tmp_path, run_comman
     io.write(deck, gallery.make("cube", size=8))
     deck.write_text(deck.read_text() + "*MATERIAL, NAME=STEEL\n")
     for out, note in (("out.inp", "Kept without being read: "), ("out.vtu", "Not read: ")):
-        assert (
-            f"hexmend: {note}keywords that define no mesh (*MATERIAL)."
-            in run_command("smooth", deck, "-o", tmp_path / out).err
-        )
+        printed = run_command("smooth", deck, "-o", tmp_path / out).err
+        assert f"hexmend: {note}keywords that define no mesh (*MATERIAL)." in printed
 
 
 # Checkpoints of a run: when they are due, what they hold, and that they go once the result is there.
@@ -216,8 +210,6 @@ def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(tmp_path, monk
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(checkpoint, "write", full)
-    assert (
-        "no checkpoint was written, and the run continues"
-        in run_command("smooth", given, "-o", out, "--checkpoint", "1e-9").err
-    )
+    printed = run_command("smooth", given, "-o", out, "--checkpoint", "1e-9").err
+    assert "no checkpoint was written, and the run continues" in printed
     assert out.exists()

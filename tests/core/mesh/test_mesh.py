@@ -128,10 +128,8 @@ def test_the_command_keeps_sets_and_moves_regions(tmp_path, capsys, run_command)
     assert set(moved) <= set(MESH.hexes[62])
     assert json.loads(report.read_text())["before"]["free_nodes"] == 8
     capsys.readouterr()
-    assert (
-        "there is no element set 'parts': did you mean part? there are 'part', 'inverted'"
-        in run_command(*words, "--only", "parts", status=3).err
-    )
+    printed = run_command(*words, "--only", "parts", status=3).err
+    assert "there is no element set 'parts': did you mean part? there are 'part', 'inverted'" in printed
 
 
 # Mean edge length: every edge counts once a hex, and a distant node does not distort it.

@@ -8,8 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend.smoothers import METHODS
-from hexmend.study.compare import compare
+from hexmend import METHODS, compare
 from hexmend_app.features.compare.comparison_table import ComparisonModel, ComparisonRow
 from tests.app.driving import LEFT, choose, key, named, press
 from tests.app.features.compare.table import (

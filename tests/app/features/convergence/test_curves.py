@@ -6,8 +6,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
 from benchmarks.window.windows import end_run
-from hexmend.run import StoppingCriteria, iterate
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.state.mesh.document import State

@@ -10,8 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
 from benchmarks.window.windows import end_run
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria
 from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.exports import versions_of
 from hexmend_app.picture import read_scene

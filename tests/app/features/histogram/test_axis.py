@@ -10,10 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.errors import ParameterError
+from hexmend import METRICS, Mesh, ParameterError, measure
 from hexmend.gallery import make
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.histogram_file import HistogramExport

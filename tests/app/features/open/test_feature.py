@@ -10,10 +10,9 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
-from hexmend import gallery, io
+from hexmend import Mesh, gallery, io
 from hexmend.gallery import make
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
-from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import card
 from hexmend_app.resources import demo_mesh

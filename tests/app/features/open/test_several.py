@@ -5,12 +5,8 @@ import pytest
 from PIL import Image
 from PySide6.QtWidgets import QFileDialog
 
-from hexmend import io
+from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend.cli.main import main
-from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.picture import PicturePanel, Scene, WipeLayout, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.cut import Cut

@@ -6,25 +6,20 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QPushButton
 
+from hexmend import METHODS, MotionRules, Stage, StoppingCriteria
 from hexmend.advice import Suggestion
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.features.outcome.feature import FeatureOutcome
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import named
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 
 def tangled():
     """Return a grid of which an inner node lies outside, the number of that node, and a set with it."""
     mesh = grid(5)
     (node,) = np.flatnonzero((mesh.points == [2, 2, 2]).all(axis=1))
-    points = mesh.points.copy()
-    points[node] += 4
-    return mesh.with_points(points).replace(node_sets={"bolt": np.array([node])}), int(node)
+    return displaced(mesh, node, 4).replace(node_sets={"bolt": np.array([node])}), int(node)
 
 
 @pytest.fixture

@@ -9,8 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
-from hexmend import gallery
-from hexmend.iteration import StoppingCriteria
+from hexmend import StoppingCriteria, gallery
 from hexmend_app.features.outcome.feature import notice
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import button, click, key, open_mesh, phase, press, run_to_end

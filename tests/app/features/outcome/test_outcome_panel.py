@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from hexmend.advice import advise
+from hexmend import LocalSteepestDescent, StoppingCriteria, advise, iterate, smooth
 from hexmend.gallery import make
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.outcome.feature import FeatureOutcome
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from tests.app.driving import texts

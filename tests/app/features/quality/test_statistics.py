@@ -8,8 +8,7 @@ from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QTableWidget
 
-from hexmend.quality import summarise
-from hexmend.quality.summary import Summary
+from hexmend import Summary, summarise
 from hexmend_app.features.quality.quality_bar import FIGURES, QualityBar
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
 from hexmend_app.theme.palette import BETTER, MUTED, WORSE

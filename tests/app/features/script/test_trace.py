@@ -8,13 +8,8 @@ import sys
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import METHODS, Mesh, MotionRules, Recipe, Stage, StoppingCriteria, io
 from hexmend.gallery import make
-from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.features.script.trace import Trace
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase

@@ -6,9 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from benchmarks.window.windows import end_run
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Stage, StoppingCriteria
 from hexmend_app.picture import Camera
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.picture.cut import Cut

@@ -10,9 +10,7 @@ import sys
 
 import pytest
 
-from hexmend.errors import HexmendError
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, HexmendError, StoppingCriteria
 from hexmend_app.state.session import recovery as recovery_module
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings.paths import VARIABLE

@@ -7,9 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QMessageBox
 
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Stage, StoppingCriteria
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_settings import Pace

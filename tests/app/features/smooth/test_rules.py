@@ -5,13 +5,9 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QComboBox, QLabel
 
+from hexmend import METHODS, MotionRules, Recipe, Stage, StoppingCriteria, read_recipe, write_recipe
+from hexmend import smooth as smoothed
 from hexmend.gallery import make
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
-from hexmend.run import smooth as smoothed
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.feature import FeatureSmooth
 from hexmend_app.features.smooth.rule_form import RuleForm
 from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with_set_rules

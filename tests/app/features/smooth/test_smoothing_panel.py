@@ -5,9 +5,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel
 
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Stage, StoppingCriteria
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.breakpoints import Breakpoints

@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend import io
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, Mesh, io
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.page import Page
 from tests.app.driving import open_and_wait, tick
 from tests.app.features.structure.layers import open_and_know, pixels, press_key, texts
 from tests.core.curved_shell import curved_shell
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 
 def test_a_key_shows_and_hides_a_layer(five):
@@ -54,9 +52,8 @@ def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
 def shell():
     """Return a shell with free nodes that are moved away from their places."""
     mesh = curved_shell(20, through=3, around=3, along=3)
-    points = mesh.points.copy()
-    points[mesh.free] += np.random.default_rng(0).normal(scale=0.05, size=(np.count_nonzero(mesh.free), 3))
-    return mesh.with_points(points)
+    shift = np.random.default_rng(0).normal(scale=0.05, size=(np.count_nonzero(mesh.free), 3))
+    return displaced(mesh, mesh.free, shift)
 
 
 @pytest.fixture

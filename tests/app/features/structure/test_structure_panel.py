@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import gallery, io
-from hexmend.mesh.mesh import Mesh
+from hexmend import Mesh, gallery, io
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS

@@ -3,8 +3,7 @@
 import pytest
 from PySide6.QtWidgets import QComboBox, QLabel
 
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend import LocalSteepestDescent, StoppingCriteria
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.state.run.run_controller import Phase

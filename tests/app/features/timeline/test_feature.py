@@ -5,8 +5,7 @@ from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QSpinBox, QToolButton
 
-from hexmend.iteration import Outcome, Step, StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Outcome, Step, StoppingCriteria
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run.run_controller import Phase

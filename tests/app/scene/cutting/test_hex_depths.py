@@ -9,7 +9,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Depth, DepthUnit, Sphere
 from hexmend_app.scene.geometry.filters import Filters
 from hexmend_app.scene.views.frame import Frame
-from tests.core.grids import grid
+from tests.core.grids import grid, placed
 
 MESH = grid(7, 6, 5)
 CENTRES = MESH.points[MESH.hexes].mean(axis=1)
@@ -50,9 +50,7 @@ def test_hexes_stay_while_nodes_move_and_follow_when_the_cut_changes():
     cut = Cut(depth=Depth(0.0, 0.6, DepthUnit.EDGES))
     before = kept(cut, filters=filters)
     inner = MESH.free
-    points = MESH.points.copy()
-    points[inner] = 0.5 * (points[inner] + [3.5, 3, 2.5])
-    moved = MESH.with_points(points)
+    moved = placed(MESH, inner, 0.5 * (MESH.points[inner] + [3.5, 3, 2.5]))
     np.testing.assert_array_equal(kept(cut, moved, filters), before)
     wider = Cut(depth=Depth(0.0, 0.7, DepthUnit.EDGES))
     np.testing.assert_array_equal(kept(wider, moved, filters), kept(wider, moved))

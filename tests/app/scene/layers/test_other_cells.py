@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, Mesh
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
+from hexmend import Mesh, measure
 from hexmend.boundary import NodeClass
 from hexmend.gallery.gallery_mesh import extrude
 from hexmend.gallery.pentagon import fan, subdivide
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box
@@ -30,7 +29,7 @@ from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_
 from tests.app.features.structure.layers import count
 from tests.app.scene.showing import frame_of
 from tests.app.state.mesh.test_structure import tetrahedron
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 
 def five_blocks(segments, layers):
@@ -150,17 +149,14 @@ def test_boundary_nodes_have_the_colour_of_their_class(draw):
 
 def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw):
     mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    assert count(draw(mesh.with_points(points), Structure.of("kinds")), KINDS[LEFT]) > 10
+    moved = displaced(mesh, (mesh.points == [3, 3, 3]).all(axis=1), 0.2)
+    assert count(draw(moved, Structure.of("kinds")), KINDS[LEFT]) > 10
     assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
 
 
 def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there():
     mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    moved = mesh.with_points(points)
+    moved = displaced(mesh, (mesh.points == [3, 3, 3]).all(axis=1), 0.2)
     figures = measure(moved.points, moved.hexes)
     classes = classify_boundary(moved, figures, 40.0)
     first = Frame(moved, figures, kinds=classes.kinds, original_kinds=classes.original_kinds)

@@ -11,9 +11,8 @@ import pytest
 from PIL import Image
 from PySide6.QtGui import QOpenGLContext
 
+from hexmend import FileError, write
 from hexmend.cli.main import main
-from hexmend.errors import FileError
-from hexmend.io import write
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import parse_plane, with_options
 from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
@@ -96,16 +95,15 @@ def test_a_quality_range_hides_the_others(pictures):
         (["--view", "0,0,0"], "expected a nonzero vector"),
     ],
 )
-def test_invalid_options_are_reported(words, message, tmp_path, capsys):
+def test_invalid_options_are_reported(words, message, tmp_path, run_command):
     write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
-    assert message in capsys.readouterr().err
+    assert message in run_command("render", tmp_path / "mesh.vtu", "-o", tmp_path / "out.png", *words, status=2).err
 
 
-def test_at_most_12_meshes_are_drawn(tmp_path, capsys):
+def test_at_most_12_meshes_are_drawn(tmp_path, run_command):
     write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", *[str(tmp_path / "mesh.vtu")] * 13, "-o", str(tmp_path / "none.png")]) == 2
-    assert "at most 12" in capsys.readouterr().err
+    printed = run_command("render", *[str(tmp_path / "mesh.vtu")] * 13, "-o", tmp_path / "none.png", status=2).err
+    assert "at most 12" in printed
     assert not (tmp_path / "none.png").exists()
 
 

@@ -4,8 +4,7 @@ import pytest
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QCheckBox, QMainWindow, QVBoxLayout, QWidget
 
-from hexmend.quality import METRICS
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, METRICS
 from hexmend_app.feature import Panel, PanelPlace
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries

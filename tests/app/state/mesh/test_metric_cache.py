@@ -6,10 +6,9 @@ import weakref
 import numpy as np
 import pytest
 
+from hexmend import METRICS, Mesh, measure
 from hexmend.energy import MeshEnergy
 from hexmend.mesh.hexahedron import EDGES
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, measure
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.mesh.metric_cache import metric_values

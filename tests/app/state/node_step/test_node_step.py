@@ -9,14 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from hexmend.errors import MeshError
+from hexmend import METHODS, MeshError, measure
 from hexmend.gallery import make
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
 from hexmend_app.state.mesh.inspection import describe_node
 from hexmend_app.state.node_step import StepStatus, Sweep, explain
 from tests.app.state.node_step.node_steps import LOCAL, after, patch_energy, swept
-from tests.core.grids import grid, scrambled
+from tests.core.grids import displaced, grid, scrambled
 
 # Local methods
 
@@ -185,9 +183,7 @@ def sheared(shift=0.0, seed=0, size=1.0):
 
 
 def moved(mesh, distance):
-    points = mesh.points.copy()
-    points[MIDDLE] += distance
-    return mesh.with_points(points)
+    return displaced(mesh, MIDDLE, distance)
 
 
 @given(st.integers(0, 2**31), st.sampled_from([0.0, 10.0, 1e3, 1e6]), st.sampled_from([1e-3, 1.0, 50.0]))

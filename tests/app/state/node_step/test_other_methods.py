@@ -5,13 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
+from hexmend import METHODS, GETMe, Laplacian, SmartLaplacian, measure
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
-from hexmend.smoothers.getme.simultaneous import GETMe
-from hexmend.smoothers.laplacian.laplacian import Laplacian
-from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from hexmend_app.state.node_step import StepStatus, explain
 from tests.app.state.node_step.node_steps import GLOBAL, OTHERS, after, patch_energy
 from tests.core.grids import grid, scrambled

@@ -7,11 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import gallery
-from hexmend.iteration import Iteration
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria, iterate
-from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend import Iteration, Laplacian, StoppingCriteria, gallery, iterate, measure
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase

@@ -5,10 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.iteration import Step
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import Smoother
-from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend import LocalSteepestDescent, Smoother, Step, StoppingCriteria, smooth
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History

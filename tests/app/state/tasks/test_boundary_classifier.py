@@ -15,7 +15,7 @@ from hexmend_app.state.tasks.boundary_classifier import (
     node_classes,
 )
 from tests.core.boundary.solids import ball, slid
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 MESH = grid(4)
 FIGURES = measure(MESH.points, MESH.hexes)
@@ -31,9 +31,8 @@ def classifier(qapp):
 def creased():
     """Return a block with a crease across part of its top."""
     mesh = grid(8)
-    points = mesh.points.copy()
-    points[(points[:, 2] == 8) & (points[:, 0] == 4) & (np.abs(points[:, 1] - 4) <= 1), 2] += 1
-    return mesh.with_points(points)
+    x, y, z = mesh.points.T
+    return displaced(mesh, np.s_[(z == 8) & (x == 4) & (np.abs(y - 4) <= 1), 2], 1)
 
 
 def test_without_whiskers_the_classes_are_those_of_the_core():

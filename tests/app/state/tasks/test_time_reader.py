@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Laplacian, StoppingCriteria, io, measure
 from hexmend.io.formats.openfoam.foam_text import replaced_points
-from hexmend.quality import measure
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend_app.state.mesh.history import RecordedIteration
 from hexmend_app.state.session.session import Session
 from tests.core.grids import grid
