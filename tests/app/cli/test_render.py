@@ -1,9 +1,15 @@
 """`hexmend render` of scenes: the file, the options that override it, and the scene that is written."""
 
+import os
+import signal
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
 
+from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.io import write
 from hexmend_app.picture import (
@@ -165,3 +171,34 @@ def test_errors_are_reported_before_anything_is_written(tmp_path, run_command, w
     write(tmp_path / "mesh.vtu", grid(2))
     assert said in run_command("render", tmp_path / "mesh.vtu", "-o", tmp_path / "p.png", *words, status=status).err
     assert not (tmp_path / "p.png").exists()
+
+
+# Ctrl-C while VTK draws.
+
+
+#: The program; a signal arrives while VTK calls back into Python.
+PROGRAM = """
+import os, signal, sys
+from hexmend.cli.main import main
+from hexmend_app.scene.render.stage import Stage
+whole = Stage.__init__
+def begin(self, size):
+    whole(self, size)
+    self.window.AddObserver("StartEvent", lambda *_: os.kill(os.getpid(), int(os.environ["SIGNAL"])))
+Stage.__init__ = begin
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.slow
+def test_a_signal_while_a_picture_is_drawn_ends_it_in_order(tmp_path):
+    io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=27, scramble=0.3))
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "render", tmp_path / "mesh.vtu", "-o", tmp_path / "mesh.png"],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"SIGNAL": str(int(signal.SIGTERM))},
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "hexmend: interrupted\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
 from hexmend import METHODS, Mesh, MotionRules, Recipe, Stage, StoppingCriteria, io
 from hexmend.gallery import make
@@ -15,6 +16,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
+from tests.app.driving import brought, named, press, run_to_end
 
 SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
@@ -148,3 +150,26 @@ def test_without_a_mesh_the_script_does_nothing(qtbot):
     session = Session()
     exec(Trace(session).text(), {})
     session.close()
+
+
+# The script in the window: shown, copied and saved.
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    return brought(window, qtbot, "script")
+
+
+def test_the_script_is_shown_copied_and_saved(window, panel, qtbot, tmp_path, monkeypatch):
+    run_to_end(window, qtbot, "local-sd", max_iterations=2, tolerance=0)
+    text = panel.findChild(QPlainTextEdit).toPlainText()
+    assert "mesh_1 = hx.smooth(mesh_0, hx.LocalSteepestDescent(), " in text
+    assert "[camera]" in text
+    press(named(panel, QPushButton, "Copy the script"))
+    assert QApplication.clipboard().text().startswith(text.partition("# Current view")[0])
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *asked: (str(tmp_path / "again"), "Python script (*.py)")
+    )
+    press(named(panel, QPushButton, "Save the script"))
+    assert "hx.smooth(" in (tmp_path / "again.py").read_text()
+    assert not window.features["script"].save(tmp_path / "nowhere" / "script.py")

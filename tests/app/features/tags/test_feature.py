@@ -6,8 +6,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
-from hexmend import io
+from hexmend import LocalSteepestDescent, StoppingCriteria, io
+from hexmend_app.features.tags.feature import FeatureTags
+from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, brought, key, press
+from tests.app.hosting import action
+from tests.core.grids import grid, scrambled
 
 
 @pytest.fixture
@@ -104,3 +109,68 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     write(0, "two")
     assert tags(window) == {"three": [1, 2], "two": [3]}
     assert listed(panel)[0][0] == "three"
+
+
+# The panel and the shortcut tell why a hex cannot be tagged.
+
+
+@pytest.fixture
+def tag_panel(shown):
+    return shown(TagPanel(), 500, 200)
+
+
+@pytest.fixture
+def refused(tag_panel):
+    told = []
+    tag_panel.refused.connect(told.append)
+    tag_panel.toggle_requested.connect(lambda name: told.append(f"tagged {name}"))
+    return told
+
+
+def said(tag_panel):
+    return [label.text() for label in tag_panel.findChildren(QLabel) if label.isVisible()]
+
+
+@pytest.mark.parametrize("rows", [[], [TagRow("one", 3, 0, 0.5)]])
+@pytest.mark.parametrize(
+    ("selected", "busy", "name", "word"),
+    [
+        (False, False, "bad", "No hex selected"),
+        (True, True, "bad", "during a run"),
+        (False, True, "bad", "during a run"),
+        (True, False, " ", "Enter a tag name"),
+    ],
+)
+def test_a_refused_tag_has_a_reason(tag_panel, refused, rows, selected, busy, name, word):
+    tag_panel.set_tags(rows)
+    tag_panel.findChild(QComboBox).setEditText(name)
+    tag_panel.set_state(selected, busy)
+    tag_panel.toggle()
+    assert len(refused) == 1
+    assert word in refused[0]
+    # The first hint also tells how to select a hex.
+    assert any(word in text or ("Select a hex" in text and not busy and name.strip()) for text in said(tag_panel))
+
+
+@pytest.fixture
+def host(hosted):
+    return hosted(scrambled(grid(4), 0.3))
+
+
+def test_the_shortcut_reports_that_a_run_is_paused(host, qtbot):
+    feature = FeatureTags(host)
+    tag = action(feature, "tag")
+    smoothing = host.session.run
+    host.session.selection.choose(5)
+    smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0), 1)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED)
+    feature.refresh()
+    assert tag.enabled()
+    tag.handle()
+    assert "during a run" in " ".join(host.messages.messages()[-1])
+    assert host.session.document.now.mesh.hex_sets == {}
+    with qtbot.waitSignal(smoothing.ended):
+        smoothing.stop()
+    feature.refresh()
+    tag.handle()
+    assert host.session.document.now.mesh.hex_sets["tagged"].tolist() == [5]

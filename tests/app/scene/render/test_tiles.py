@@ -2,11 +2,15 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from hexmend_app.picture import Camera, Cut, CutStyle, Page, PicturePanel, Plane, Scene, WipeLayout
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.rasters import rasters
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
 from tests.core.grids import grid, scrambled
@@ -62,3 +66,16 @@ def test_tiles_cover_a_page_once_and_none_is_too_large(size, fine, pen):
     alone = fine * max(size) <= 16384 and fine * fine * size[0] * size[1] <= AT_ONCE
     assert (len(list(tiles)) == 1) == alone
     assert tiles.around == 0 or not alone
+
+
+# Counts of colours, compared with those of rows.
+
+
+@given(
+    arrays(np.uint8, st.tuples(st.integers(0, 9), st.integers(1, 9), st.just(3)), elements=st.sampled_from([0, 1, 255]))
+)
+def test_counts_agree_with_those_of_unique_rows(pixels):
+    colours, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
+    found = count_colours(pixels)
+    np.testing.assert_array_equal(found[0], colours)
+    np.testing.assert_array_equal(found[1], counts)
