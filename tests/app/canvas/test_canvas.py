@@ -15,7 +15,7 @@ from hexmend_app.canvas.canvas import Canvas
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
-from tests.app.driving import LEFT, turn
+from tests.app.driving import LEFT, heard_from, turn
 from tests.core.grids import grid
 
 MESH = grid(4)
@@ -91,8 +91,7 @@ def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
 
 @pytest.mark.slow
 def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
-    clicks = []
-    canvas.clicked.connect(clicks.append)
+    clicks = heard_from(canvas.clicked)
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
@@ -113,8 +112,7 @@ def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
 
 
 def test_two_clicks_with_ctrl_dig_twice(canvas):
-    dug = []
-    canvas.dug.connect(dug.append)
+    dug = heard_from(canvas.dug)
     view, ctrl = canvas.interactor, Qt.KeyboardModifier.ControlModifier
     QTest.mouseClick(view, LEFT, ctrl, middle(canvas))
     at = QPointF(middle(canvas))
@@ -247,8 +245,7 @@ def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(show
     bar = ColourBar()
     bar.set_special([("newly invalid", 3, "#12ab34"), ("still invalid", 0, "#ab1234")])
     shown(bar, 130)
-    asked = []
-    bar.special_clicked.connect(asked.append)
+    asked = heard_from(bar.special_clicked)
     for swatch in bar.swatches:
         QTest.mouseClick(swatch, Qt.MouseButton.LeftButton)
     assert asked == ["newly invalid"]

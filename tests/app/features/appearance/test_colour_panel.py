@@ -14,7 +14,7 @@ from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import named
+from tests.app.driving import heard_from, named, type_text
 from tests.app.hosting import action
 
 _LEFT = Qt.MouseButton.LeftButton
@@ -36,8 +36,7 @@ def panel(shown, unbounded):
 
 @pytest.fixture
 def emitted(panel):
-    scales = []
-    panel.colours_changed.connect(scales.append)
+    scales = heard_from(panel.colours_changed)
     return scales
 
 
@@ -65,8 +64,7 @@ def choose(combo, name):
 
 def type_in(box, text, *, enter=True):
     box.lineEdit().setFocus()
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), text)
+    type_text(box.lineEdit(), text)
     if enter:
         QTest.keyClick(box.lineEdit(), Qt.Key.Key_Return)
 

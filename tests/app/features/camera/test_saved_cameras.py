@@ -3,12 +3,11 @@
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox, QPushButton
 
 from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
-from tests.app.driving import open_and_wait
+from tests.app.driving import open_and_wait, type_text
 
 
 @pytest.fixture
@@ -80,9 +79,7 @@ def type_name(dialog, row, text):
     dialog.list.setCurrentRow(row)
     button(dialog, "&Rename").click()
     editor = dialog.list.findChildren(QLineEdit)[-1]
-    editor.selectAll()
-    QTest.keyClicks(editor, text)
-    QTest.keyClick(editor, Qt.Key.Key_Return)
+    type_text(editor, text, enter=True)
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, brought, choose, click, phase, press, smooth
+from tests.app.driving import LEFT, brought, choose, click_until, press, smooth
 from tests.core.grids import grid, scrambled
 
 START = State.of(scrambled(grid(4), 0.4))
@@ -138,8 +138,7 @@ def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, panel):
     original = panel.set_curves
     panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
     choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING))
+    click_until(window, qtbot, "Run", Phase.RUNNING)
     qtbot.waitUntil(lambda: len(drawn) > 0)
     drawn.clear()
     for _ in range(20):

@@ -14,7 +14,7 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Slab, Sphere
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import named
+from tests.app.driving import heard_from, named
 
 _LEFT = Qt.MouseButton.LeftButton
 _BOUNDS = np.array([[-1.0, 0.0, 2.0], [3.0, 30.0, 4.0]])
@@ -30,8 +30,7 @@ def panel(shown):
 
 @pytest.fixture
 def emitted(panel):
-    planes = []
-    panel.cut_changed.connect(planes.append)
+    planes = heard_from(panel.cut_changed)
     return planes
 
 

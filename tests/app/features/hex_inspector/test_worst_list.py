@@ -15,7 +15,7 @@ from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import figure
-from tests.app.driving import named, texts
+from tests.app.driving import heard_from, named, texts
 from tests.app.invalid_hexes import BENT, INSIDE, THREE, VALID
 from tests.core.grids import grid, scrambled
 
@@ -94,8 +94,7 @@ def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
 
 
 def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list):
-    selected = []
-    worst_list.chosen.connect(selected.append)
+    selected = heard_from(worst_list.chosen)
     worst_list.chosen.connect(worst_list.set_selected)
     for text in ("Next", "Next", "Previous", "Previous"):
         QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)

@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 
 from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.value_range import within
-from tests.app.driving import LEFT, move
+from tests.app.driving import LEFT, move, type_text
 from tests.app.features.histogram.mouse import ends, point_at
 
 
@@ -78,18 +78,14 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
     typed = ((histogram.range_row.low, "2.5e0"), (histogram.range_row.high, "4"), (histogram.range_row.high, "inf"))
     for number, (box, text) in enumerate(typed, start=1):
         box.setFocus()
-        box.selectAll()
-        QTest.keyClicks(box, text)
-        QTest.keyClick(box, Qt.Key.Key_Return)
+        type_text(box, text, enter=True)
         qtbot.waitUntil(lambda number=number: len(announced) == number)
     expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
     assert announced == [Show(ends, "condition") for ends in expected]
     QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)  # from infinity back to the axis
     qtbot.waitUntil(lambda: announced[-1].high == histogram.axis.high)
     box = histogram.range_row.low
-    box.selectAll()
-    QTest.keyClicks(box, "1e-")
-    QTest.keyClick(box, Qt.Key.Key_Return)
+    type_text(box, "1e-", enter=True)
     assert histogram.range().low == 2.5  # incomplete: dropped
 
 

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.distributions import Distributions
-from tests.app.driving import LEFT, turn
+from tests.app.driving import LEFT, turn, type_text
 
 
 def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
@@ -54,9 +54,7 @@ def test_snapshots_are_drawn_renamed_and_removed(histogram, data):
     name = histogram.legend.entries[0].name
     assert name.text() == "laplacian 5"
     QTest.mouseClick(name, LEFT)
-    name.selectAll()
-    QTest.keyClicks(name, "Laplace")
-    QTest.keyClick(name, Qt.Key.Key_Return)
+    type_text(name, "Laplace", enter=True)
     QTest.mouseClick(histogram.legend.entries[3].cross, LEFT)
     assert signals == [(0, "Laplace"), 3]
     histogram.set_snapshots(snapshots[:1])

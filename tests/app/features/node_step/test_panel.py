@@ -18,7 +18,7 @@ from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.node_step import StepStatus, Trial, explain
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH, TEXT, WORSE
-from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click_until, key, named, pixels, press, tick
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
@@ -274,10 +274,8 @@ def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, c
     stepped = window.session.document.now
     if change == "run":
         choose_by_keys(window, "laplacian")
-        click(window, "Step")
-        qtbot.waitUntil(phase(window, Phase.PAUSED))
-        click(window, "Stop")
-        qtbot.waitUntil(phase(window, Phase.FINISHED))
+        click_until(window, qtbot, "Step", Phase.PAUSED)
+        click_until(window, qtbot, "Stop", Phase.FINISHED)
         window.session.commands.undo()
     else:
         choose_by_keys(window, "local-nr")

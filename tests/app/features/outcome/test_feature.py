@@ -15,7 +15,7 @@ from hexmend.advice import Suggestion
 from hexmend_app.features.outcome.feature import FeatureOutcome, notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import button, click, key, named, open_mesh, phase, press, run_to_end
+from tests.app.driving import button, click, click_until, key, named, open_mesh, phase, press, run_to_end
 from tests.app.driving import texts as visible_texts
 from tests.core.grids import displaced, grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
@@ -93,8 +93,7 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
     press_choice(window, "Select: Undo, then Smart Laplacian")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
     assert window.session.run_setup.method == "smart-laplacian"
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Run", Phase.FINISHED)
     assert window.session.document.now.summary.inverted == 0
 
 

@@ -13,7 +13,7 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.session import commands
 from hexmend_app.state.settings import settings
-from tests.app.driving import choose, click, key, named, phase, run_to_end, sentence
+from tests.app.driving import choose, click, click_until, key, named, phase, run_to_end, sentence
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -35,17 +35,14 @@ def counts(window):
 def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING))
+    click_until(window, qtbot, "Run", Phase.RUNNING)
     qtbot.waitUntil(lambda: document.now is not start)
-    click(window, "Pause")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Pause", Phase.PAUSED)
     held = document.now
     click(window, "Step")
     qtbot.waitUntil(lambda: document.now is not held)
     assert document.now.summary.objective != held.summary.objective or held.summary.objective is None
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Stop", Phase.FINISHED)
     window.refresh()
     assert window.isWindowModified()
     assert document.undo_title == "Local steepest descent"
@@ -111,8 +108,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 @pytest.mark.slow
 def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
     window = fresh_window
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
     with monkeypatch.context() as patched:
         patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
         window.close()
@@ -191,8 +187,7 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
 @pytest.mark.slow
 def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
     record = window.session.run.record
     window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
     assert len(asked) == 1

@@ -13,7 +13,7 @@ from hexmend_app.features.smooth.rule_form import RuleForm
 from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with_set_rules
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
-from tests.app.driving import named, smooth
+from tests.app.driving import heard_from, named, smooth
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 SLIDING = MotionRules(interfaces="slide", fix=("inlet",))
@@ -77,8 +77,7 @@ def test_the_form_tells_the_interfaces_and_lists_the_sets(form):
 
 
 def test_a_choice_is_sent_as_rules(form):
-    heard = []
-    form.changed.connect(heard.append)
+    heard = heard_from(form.changed)
     pick(form, "inlet", "Fixed")
     assert heard[-1] == MotionRules(fix=("inlet",))
     assert form.title == "Interfaces and sets (1 rule)"

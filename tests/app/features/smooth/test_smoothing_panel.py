@@ -11,7 +11,7 @@ from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
-from tests.app.driving import named
+from tests.app.driving import heard_from, named, type_text
 
 _STATES = ("idle", "preparing", "running", "paused", "finished")
 _SIGNALS = (
@@ -91,8 +91,7 @@ def test_a_stage_set_elsewhere_is_shown(panel, setup, heard):
 
 
 def test_settings_changed_while_paused_change_the_run(panel, setup):
-    changes = []
-    panel.change_requested.connect(changes.append)
+    changes = heard_from(panel.change_requested)
     setup.active_stage = setup.stage
     panel.set_state("paused")
     panel.run_or_pause()
@@ -109,8 +108,7 @@ def test_run_shows_an_invalid_value(panel, setup, heard):
     parameters.expand()
     editor = panel.stage.parameters.editor("scaling")
     editor.lineEdit().setFocus()
-    editor.lineEdit().selectAll()
-    QTest.keyClicks(editor.lineEdit(), "-7")
+    type_text(editor.lineEdit(), "-7")
     assert setup.stage is None
     assert setup.smoother is None
     parameters.collapse()

@@ -14,7 +14,7 @@ from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
 from hexmend_app.shell.start.program import application
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.structure import find_structure
-from tests.app.driving import open_and_wait, tick
+from tests.app.driving import heard_from, open_and_wait, tick
 from tests.app.features.structure.layers import count, open_and_know, pixels, press, press_key, texts
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.curved_shell import curved_shell
@@ -159,8 +159,7 @@ def test_curved_faces_are_offered_for_hexes_with_mid_nodes_alone(panel):
     assert panel.layers["curved"].box.isVisible()
     assert panel.layers["curved"].box.isChecked()
     assert texts(panel, "curved") == ["3 hexes"]
-    heard = []
-    panel.structure_changed.connect(heard.append)
+    heard = heard_from(panel.structure_changed)
     press(panel.layers["curved"].box)
     assert heard == [Structure().without("curved")]
 
@@ -176,8 +175,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()
-    heard = []
-    panel.structure_changed.connect(heard.append)
+    heard = heard_from(panel.structure_changed)
     press(panel.layers["irregular"].box)
     assert heard == []
     panel.set_structure(Structure.of("irregular"))

@@ -10,7 +10,7 @@ from hexmend import LocalSteepestDescent, StoppingCriteria, io
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, brought, key, press
+from tests.app.driving import LEFT, brought, heard_from, key, press, type_text
 from tests.app.hosting import action
 from tests.core.grids import grid, scrambled
 
@@ -67,15 +67,13 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp
 @pytest.mark.slow
 def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name = panel.findChild(QComboBox)
-    name.lineEdit().selectAll()
-    QTest.keyClicks(name.lineEdit(), "bad ones")
+    type_text(name.lineEdit(), "bad ones")
     window.session.view.change(show={"peel": 2})
     window.refresh()
     press(button(panel, "Shown"))
     layers = window.session.document.now.mesh.topology.layers
     assert tags(window) == {"bad ones": np.flatnonzero(layers >= 2).tolist()}
-    name.lineEdit().selectAll()
-    QTest.keyClicks(name.lineEdit(), "worst")
+    type_text(name.lineEdit(), "worst")
     press(button(panel, "Worst"))
     assert tags(window)["worst"] == sorted(window.features["hex_inspector"].worst_list.hexes.tolist())
     table = panel.findChild(QTableWidget)
@@ -96,9 +94,7 @@ def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     def write(row, text):
         QTest.mouseDClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(row, 0)).center())
         editor = table.findChild(QLineEdit)
-        editor.selectAll()
-        QTest.keyClicks(editor, text)
-        QTest.keyClick(editor, Qt.Key.Key_Return)
+        type_text(editor, text, enter=True)
         # Qt takes what was typed in a later turn of the event loop
         qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None)
         window.refresh()
@@ -121,8 +117,7 @@ def tag_panel(shown):
 
 @pytest.fixture
 def refused(tag_panel):
-    told = []
-    tag_panel.refused.connect(told.append)
+    told = heard_from(tag_panel.refused)
     tag_panel.toggle_requested.connect(lambda name: told.append(f"tagged {name}"))
     return told
 

@@ -27,7 +27,7 @@ from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
-from tests.app.driving import turn
+from tests.app.driving import heard_from, turn
 from tests.core.grids import grid, scrambled
 
 SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
@@ -163,8 +163,7 @@ def test_a_method_that_raises_leaves_its_last_iteration_which_can_be_undone(docu
 
 
 def test_requested_metrics_are_computed_by_the_worker(document, smoothing, qtbot):
-    frames = []
-    smoothing.iterated.connect(frames.append)
+    frames = heard_from(smoothing.iterated)
     smoothing.request_metrics({"condition"})
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1)

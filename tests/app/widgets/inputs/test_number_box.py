@@ -2,11 +2,11 @@
 
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractSpinBox
 
 from hexmend.parameters import Parameter
 from hexmend_app.widgets.inputs.number_box import NumberBox
+from tests.app.driving import type_text
 
 _BOUNDED = Parameter("delta", float, 0.01, 0.0, 10.0, None, "", "")
 
@@ -39,11 +39,9 @@ def test_the_step_after_the_upper_bound_is_no_limit(qapp):
     assert not box.stepEnabled() & QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
     box.stepBy(-1)
     assert box.value() == 10
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), "unlimited")
+    type_text(box.lineEdit(), "unlimited")
     assert (box.value(), box.problem) == ("unlimited", "")
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), "none")
+    type_text(box.lineEdit(), "none")
     assert "or unlimited" in box.problem
 
 
@@ -59,11 +57,9 @@ def test_a_number_left_to_the_program_is_below_all_numbers(qapp):
     assert box.value() == 0.0
     box.stepBy(-1)
     assert box.value() == "auto"
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), "0.5 %")
+    type_text(box.lineEdit(), "0.5 %")
     assert (box.value(), box.problem) == ("0.5%", "")
     box.stepBy(1)
     assert box.value() == box.text() == "0.6%"
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), "101%")
+    type_text(box.lineEdit(), "101%")
     assert "a percentage such as 0.5%" in box.problem

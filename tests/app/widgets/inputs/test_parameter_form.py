@@ -13,7 +13,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import named
+from tests.app.driving import named, type_text
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -56,8 +56,7 @@ def changes(form):
 def type_into(editor, text):
     line = editor.lineEdit() if isinstance(editor, NumberBox) else editor
     line.setFocus()
-    line.selectAll()
-    QTest.keyClicks(line, text)
+    type_text(line, text)
 
 
 def test_set_values_are_returned_without_a_signal(form, changes):
@@ -149,8 +148,7 @@ def test_a_text_with_suggestions_can_be_chosen_and_written(shown):
     assert form.values() == {"target": "auto"}
     form.set_values({"target": "0.1 + x"})
     assert (form.values(), changes) == ({"target": "0.1 + x"}, [])
-    editor.lineEdit().selectAll()
-    QTest.keyClicks(editor.lineEdit(), "2*x")
+    type_text(editor.lineEdit(), "2*x")
     assert (form.values(), changes[-1]) == ({"target": "2*x"}, "2*x")
     editor.setCurrentIndex(editor.findText("ideal"))
     editor.activated.emit(editor.currentIndex())
