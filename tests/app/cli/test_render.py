@@ -12,26 +12,10 @@ from PIL import Image
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.io import write
-from hexmend_app.picture import (
-    Camera,
-    ColourBarStyle,
-    Colours,
-    Cut,
-    CutStyle,
-    Isolate,
-    LineStyle,
-    Page,
-    PicturePanel,
-    Plane,
-    Range,
-    Scene,
-    Show,
-    TextPlace,
-    camera_text,
-    read_scene,
-    write_scene,
-)
+from hexmend_app.picture import Camera, Colours, Cut, CutStyle, Isolate, PicturePanel, Plane, Range, Scene, Show
 from hexmend_app.picture.appearance import Structure
+from hexmend_app.picture.page import ColourBarStyle, LineStyle, Page, TextPlace
+from hexmend_app.picture.scene_files import camera_text, read_scene, write_scene
 from tests.core.grids import grid, scrambled
 
 FILE = Scene(

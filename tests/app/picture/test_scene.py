@@ -10,27 +10,10 @@ from hypothesis import strategies as st
 
 from hexmend.errors import ParameterError
 from hexmend.quality import measure
-from hexmend_app.picture import (
-    Box,
-    Colours,
-    Cut,
-    CutKind,
-    CutStyle,
-    Depth,
-    DepthUnit,
-    Isolate,
-    LineStyle,
-    Page,
-    Plane,
-    Scene,
-    Show,
-    Slab,
-    Sphere,
-    from_toml,
-    to_toml,
-)
+from hexmend_app.picture import Colours, Isolate, LineStyle, Page, Scene, Show, from_toml, to_toml
 from hexmend_app.picture.appearance import Look, Measurement, Structure
-from hexmend_app.picture.cut import proposed_cuts
+from hexmend_app.picture.cut import Cut, CutKind, CutStyle, proposed_cuts
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
 from hexmend_app.picture.displacement import MENDED, NEWLY_INVALID, STILL_INVALID, Displacement, ReferenceState
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled

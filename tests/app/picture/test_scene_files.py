@@ -5,38 +5,11 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.picture import (
-    AxesStyle,
-    Box,
-    Camera,
-    Captions,
-    ColourBarStyle,
-    Colours,
-    Corner,
-    Cut,
-    CutStyle,
-    Depth,
-    DepthUnit,
-    Isolate,
-    LineStyle,
-    Page,
-    PicturePanel,
-    Plane,
-    Range,
-    Scene,
-    Show,
-    Slab,
-    Sphere,
-    TextPlace,
-    WipeLayout,
-    camera_from,
-    camera_text,
-    from_toml,
-    read_scene,
-    to_toml,
-    write_scene,
-)
+from hexmend_app.picture import Camera, Colours, Cut, CutStyle, Isolate, PicturePanel, Range, Scene, Show, WipeLayout
 from hexmend_app.picture.appearance import Structure, Traces
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
+from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
 
 POSE = Camera(position=(0.1, -2.0, 3e-7), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=1 / 3, parallel=True)
 FULL = Scene(

@@ -5,16 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.boundary import (
-    Keeping,
-    NodeClass,
-    PartitionedSurface,
-    SkinSurface,
-    SlidingBoundary,
-    boundary_of,
-    departures,
-    freed_by_sliding,
-)
+from hexmend.boundary import Keeping, PartitionedSurface, SkinSurface, SlidingBoundary, departures, freed_by_sliding
+from hexmend.boundary.classification import NodeClass, boundary_of
 from hexmend.gallery import make
 from hexmend.quality import locked_hexes, measure
 from tests.core.boundary.solids import ball, slid

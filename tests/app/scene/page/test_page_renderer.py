@@ -6,22 +6,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend_app.picture import (
-    AxesStyle,
-    Camera,
-    Captions,
-    ColourBarStyle,
-    Colours,
-    Cut,
-    Page,
-    PicturePanel,
-    Plane,
-    Range,
-    Scene,
-    Show,
-    TextPlace,
-)
+from hexmend_app.picture import Camera, Colours, Cut, PicturePanel, Plane, Range, Scene, Show
 from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Page, TextPlace
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page

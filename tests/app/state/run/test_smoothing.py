@@ -7,18 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import (
-    Iteration,
-    Laplacian,
-    LocalSteepestDescent,
-    Smoother,
-    Step,
-    StoppingCriteria,
-    gallery,
-    iterate,
-    measure,
-    smooth,
-)
+from hexmend import Iteration, Laplacian, Smoother, Step, StoppingCriteria, gallery, iterate, measure, smooth
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
