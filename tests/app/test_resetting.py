@@ -7,8 +7,7 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox
 
 from hexmend_app.formats.session.archive import read_archive
 from hexmend_app.formats.session.session_file import VERSION
-from hexmend_app.picture import Camera
-from hexmend_app.picture.cut import Cut
+from hexmend_app.picture import Camera, Cut
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session import session_data
 from tests.app.driving import click_until

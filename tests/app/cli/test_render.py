@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend import gallery, io
+from hexmend import gallery, io, write
 from hexmend.cli.main import main
-from hexmend.io import write
 from hexmend_app.picture import Camera, Colours, Cut, CutStyle, Isolate, PicturePanel, Plane, Range, Scene, Show
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.page import ColourBarStyle, LineStyle, Page, TextPlace

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.errors import ParameterError
-from hexmend.quality import measure
+from hexmend import ParameterError, measure
 from hexmend_app.picture import Colours, Isolate, LineStyle, Page, Scene, Show, from_toml, to_toml
 from hexmend_app.picture.appearance import Look, Measurement, Structure
 from hexmend_app.picture.cut import Cut, CutKind, CutStyle, proposed_cuts

@@ -7,8 +7,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from hexmend import gallery, measure
-from hexmend.errors import ParameterError
+from hexmend import ParameterError, gallery, measure
 from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend_app.report.histogram import Histogram, Outline

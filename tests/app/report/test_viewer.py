@@ -8,9 +8,8 @@ import signal
 import numpy as np
 import pytest
 
-from hexmend import METHODS, Run, StoppingCriteria, gallery
+from hexmend import METHODS, METRICS, Run, StoppingCriteria, gallery
 from hexmend.cli.process.interrupts import ExitAfterIteration
-from hexmend.quality import METRICS
 from hexmend_app.report import case
 from hexmend_app.report import viewer as module
 from hexmend_app.report.case import run_methods

@@ -12,9 +12,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QFileDialog, QLabel
 
 import hexmend_app.features
-from hexmend import METRICS, gallery, write
+from hexmend import METRICS, ParameterError, gallery, write
 from hexmend.cli.main import main
-from hexmend.errors import ParameterError
 from hexmend_app.picture import colour_map, from_toml, layer_switch
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer

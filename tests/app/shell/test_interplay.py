@@ -6,8 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.cut_shapes import Box, Plane
+from hexmend_app.picture import Box, Cut, Plane
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled

@@ -6,8 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
-from hexmend_app.picture import Cut
-from hexmend_app.picture.cut import CutStyle
+from hexmend_app.picture import Cut, CutStyle
 from tests.app.driving import (
     LEFT,
     drag,

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.cut_shapes import Box, Plane, Slab, Sphere
+from hexmend_app.picture import Box, Cut, Plane, Slab, Sphere
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import heard_from, named

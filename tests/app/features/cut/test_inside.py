@@ -8,9 +8,8 @@ from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
 
 from hexmend import gallery
 from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.widgets.inputs.slider_box import SliderBox
 from tests.app.driving import LEFT, heard_from, named, open_mesh, type_text
 

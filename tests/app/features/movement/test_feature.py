@@ -6,8 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend_app.picture.colours import Range
-from hexmend_app.picture.cut import Cut
+from hexmend_app.picture import Cut, Range
 from tests.app.driving import brought, named, pixels, smooth, type_text
 from tests.app.driving import press as press_button
 

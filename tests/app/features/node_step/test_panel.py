@@ -13,8 +13,7 @@ from hexmend_app.features.node_step.feature import FeatureNodeStep
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.step_plot import NodePlot, extent
 from hexmend_app.features.node_step.step_texts import rows
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.visibility import Isolate
+from hexmend_app.picture import Cut, Isolate
 from hexmend_app.state.node_step import StepStatus, Trial, explain
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH, TEXT, WORSE

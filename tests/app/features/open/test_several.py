@@ -7,9 +7,8 @@ from PySide6.QtWidgets import QFileDialog
 
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend.cli.main import main
-from hexmend_app.picture import PicturePanel, Scene, WipeLayout, write_scene
+from hexmend_app.picture import Cut, PicturePanel, Scene, WipeLayout, write_scene
 from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.cut import Cut
 from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import button, open_and_wait, smooth
 from tests.core.grids import grid, scrambled

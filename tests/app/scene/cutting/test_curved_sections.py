@@ -8,8 +8,7 @@ from scipy.spatial import cKDTree
 
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box, Plane
+from hexmend_app.picture import Box, Cut, CutStyle, Plane
 from hexmend_app.scene.cutting.coarse_section import coarse_section
 from hexmend_app.scene.cutting.curved_sections import curved_sections
 from hexmend_app.scene.cutting.cut import remaining_skin, sections

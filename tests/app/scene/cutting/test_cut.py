@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.quality import measure
+from hexmend_app.picture import Box, Cut, CutStyle, Depth, DepthUnit, Plane, Sphere
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Sphere
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry.filters import Filters

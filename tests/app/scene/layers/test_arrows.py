@@ -6,12 +6,9 @@ import numpy as np
 import pytest
 
 from hexmend.quality import measure
+from hexmend_app.picture import Colours, Cut, CutStyle, LineStyle, Page, Range, Show
 from hexmend_app.picture.appearance import Arrows, Look, Traces
-from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.picture.page import LineStyle, Page
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers import arrows as layer
 from hexmend_app.scene.views.frame import Frame
 from tests.app.scene.showing import show

@@ -5,10 +5,8 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
+from hexmend_app.picture import Cut, CutStyle, Plane, Show
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, sharp_curved_edges
 from hexmend_app.scene.layers.invalid_outline import outlines

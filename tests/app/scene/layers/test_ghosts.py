@@ -7,10 +7,9 @@ import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend import Cells, Mesh
+from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines

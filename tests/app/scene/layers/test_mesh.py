@@ -4,11 +4,8 @@ import numpy as np
 import pytest
 import pyvista as pv
 
+from hexmend_app.picture import Colours, Cut, CutStyle, Page, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.colours import Colours
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.page import Page
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.colour.colouring import OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.layers.surface import colours_of

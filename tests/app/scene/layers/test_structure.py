@@ -7,11 +7,8 @@ from hexmend import Mesh, measure
 from hexmend.boundary import NodeClass
 from hexmend.gallery.gallery_mesh import extrude
 from hexmend.gallery.pentagon import fan, subdivide
+from hexmend_app.picture import Box, Cut, CutStyle, LineStyle, Show
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box
-from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.layers.optional.structure import BOUNDARY, FREE, IRREGULAR_NODE, KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.scene.layers.silhouette import form_lines

@@ -15,9 +15,8 @@ from hexmend import FileError, write
 from hexmend.cli.main import main
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import parse_plane, with_options
-from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
+from hexmend_app.picture import ColourBarStyle, Cut, CutStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh

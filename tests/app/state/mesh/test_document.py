@@ -7,9 +7,8 @@ import pytest
 
 from hexmend.boundary import surface_change
 from hexmend.quality import measure, summarise
-from hexmend_app.picture.colours import Colours
+from hexmend_app.picture import Colours, Isolate
 from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.picture.visibility import Isolate
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group

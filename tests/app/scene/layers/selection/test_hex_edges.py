@@ -6,9 +6,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.smoothers import METHODS
+from hexmend_app.picture import LineStyle, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.selection.highlight import dashed
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.render.stage import Stage
