@@ -1,7 +1,5 @@
 """Guards against leaks fail a test that leaves a thread, a file or a window."""
 
-from __future__ import annotations
-
 import ast
 import threading
 import tomllib

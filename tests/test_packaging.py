@@ -22,6 +22,7 @@ from hexmend.cli.main import main
 from hexmend.io import FORMATS
 from hexmend_app.formats.session import SUFFIX
 from scripts.check_layers import CORE, SEES_THE_FACE, WINDOWS, broken, circle, import_graph
+from tests.programs import run_python
 
 ROOT = Path(__file__).resolve().parents[1]
 DESKTOP = ROOT / "desktop"
@@ -221,5 +222,5 @@ def test_importing_all_of_the_core_brings_no_window_along():
         "        importlib.import_module(one.name)\n"
         f"print(sorted({{name.split('.')[0] for name in sys.modules}} & set({WINDOWS!r})))\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    done = run_python("-c", program, check=True)
     assert done.stdout == "[]\n"

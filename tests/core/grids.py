@@ -1,7 +1,5 @@
 """Small meshes for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh

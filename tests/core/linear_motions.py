@@ -1,7 +1,5 @@
 """Linear motions of small meshes, for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend import LinearMotion, Mesh

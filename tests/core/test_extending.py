@@ -3,8 +3,6 @@
 import json
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +14,7 @@ from hexmend.hooks import hook
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid
 from tests.examples import ROOT, example
+from tests.programs import run_python
 
 EXAMPLE = example("A method")
 #: Heading of the example, folder in the core, entry-point group, entry.
@@ -37,9 +36,7 @@ sys.exit(status)
 
 def python(paths, program, *words, **options):
     """Run a Python program with folders before the others of the path."""
-    path = os.pathsep.join(filter(None, [*map(str, paths), os.environ.get("PYTHONPATH", "")]))
-    command = [sys.executable, "-c", program, *words]
-    return subprocess.run(command, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True, **options)
+    return run_python("-c", program, *words, paths=paths, **options)
 
 
 def commands_in(path):
@@ -286,5 +283,5 @@ assert "hexmend.quality" not in sys.modules
 mesh = Mesh(UNIT_CUBE, [range(8)])
 print(mesh.quality("q")[0], mesh.worst(1)[0])
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    done = run_python("-c", program)
     assert (done.stdout, done.stderr) == ("1.0 0\n", "")

@@ -1,11 +1,9 @@
 """What a command imports: a process that pays for what it does not use is slow from its first moment."""
 
-import subprocess
-import sys
-
 import pytest
 
 from hexmend import gallery, io, measure
+from tests.programs import run_python
 
 #: Loaded for a few commands alone, and how long it takes.
 HEAVY = {
@@ -31,7 +29,7 @@ SMOOTH = ["smooth", "{mesh}", "-o", "{out}.vtk"]
 
 
 def program(*words):
-    done = subprocess.run([sys.executable, "-c", PROGRAM, *words], capture_output=True, text=True)
+    done = run_python("-c", PROGRAM, *words)
     said, _, modules = done.stdout.rpartition("modules:")
     assert done.returncode == 0, done.stderr
     return said, modules.split()

@@ -1,7 +1,5 @@
 """Which terminals get colours and lines that change in place: one answer for all that is printed."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """The same work by different numbers of threads."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

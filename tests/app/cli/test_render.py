@@ -1,9 +1,6 @@
 """`hexmend render` of scenes: the file, the options that override it, and the scene that is written."""
 
-import os
 import signal
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -16,6 +13,7 @@ from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.page import ColourBarStyle, LineStyle, Page, TextPlace
 from hexmend_app.picture.scene_files import camera_text, read_scene, write_scene
 from tests.core.grids import grid, scrambled
+from tests.programs import run_python
 
 FILE = Scene(
     cameras={"side": Camera("+y")},
@@ -176,12 +174,7 @@ sys.exit(main(sys.argv[1:]))
 @pytest.mark.slow
 def test_a_signal_while_a_picture_is_drawn_ends_it_in_order(tmp_path):
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=27, scramble=0.3))
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, "render", tmp_path / "mesh.vtu", "-o", tmp_path / "mesh.png"],
-        capture_output=True,
-        text=True,
-        env=os.environ | {"SIGNAL": str(int(signal.SIGTERM))},
-        check=False,
-    )
+    words = ["render", tmp_path / "mesh.vtu", "-o", tmp_path / "mesh.png"]
+    done = run_python("-c", PROGRAM, *words, variables={"SIGNAL": str(int(signal.SIGTERM))})
     assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "hexmend: interrupted\n")
     assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]

@@ -28,26 +28,33 @@ from tests.examples import example
 EXAMPLE = example("A feature of the viewer")
 
 
-def _add_folder(tmp_path, monkeypatch, name, source):
-    folder = tmp_path / name
-    folder.mkdir()
-    (folder / "__init__.py").touch()
-    (folder / "feature.py").write_text(source, encoding="utf-8")
+@pytest.fixture
+def add_folder(tmp_path, monkeypatch):
+    """Add a folder of a feature with a source text; its modules are forgotten afterwards."""
     monkeypatch.setattr(hexmend_app.features, "__path__", [*hexmend_app.features.__path__, str(tmp_path)])
+    added = []
+
+    def add(name, source):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").touch()
+        (tmp_path / name / "feature.py").write_text(source, encoding="utf-8")
+        added.append(f"hexmend_app.features.{name}")
+
+    yield add
+    for name in [name for name in sys.modules if name.startswith(tuple(added))]:
+        del sys.modules[name]
 
 
 @pytest.fixture
-def with_folder(qtbot, tmp_path, monkeypatch):
+def with_folder(qtbot, add_folder):
     """A window with the feature of an additional folder."""
-    _add_folder(tmp_path, monkeypatch, "volume", EXAMPLE)
+    add_folder("volume", EXAMPLE)
     window = Window()
     window.build_features()
     window.show()
     yield window
     window.close()
     window.deleteLater()
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.volume")]:
-        del sys.modules[name]
 
 
 def test_a_feature_is_found_by_its_folder(with_folder, cube):
@@ -65,12 +72,9 @@ def test_a_feature_is_found_by_its_folder(with_folder, cube):
 
 
 @pytest.fixture
-def with_plotter(tmp_path, monkeypatch):
+def with_plotter(add_folder):
     """Add the folder of the feature that draws with PyVista."""
-    _add_folder(tmp_path, monkeypatch, "cad_surface", example("Drawing with PyVista"))
-    yield
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.cad_surface")]:
-        del sys.modules[name]
+    add_folder("cad_surface", example("Drawing with PyVista"))
 
 
 @pytest.mark.slow
@@ -113,12 +117,9 @@ def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder,
 
 
 @pytest.fixture
-def with_notes(tmp_path, monkeypatch):
+def with_notes(add_folder):
     """Add the folder of the feature with a state."""
-    _add_folder(tmp_path, monkeypatch, "notes", example("State and exports of a feature"))
-    yield
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.notes")]:
-        del sys.modules[name]
+    add_folder("notes", example("State and exports of a feature"))
 
 
 def _choose_and_write(window, hex, text):
@@ -154,15 +155,13 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     assert csv.read_text(encoding="utf-8").splitlines() == ["hex,note", "3,thin", "5,at the weld"]
 
 
-def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_path, monkeypatch):
-    _add_folder(tmp_path, monkeypatch, "not_importable", "raise RuntimeError('at import')")
-    _add_folder(tmp_path, monkeypatch, "broken_package", EXAMPLE)
+def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, add_folder, tmp_path, monkeypatch):
+    add_folder("not_importable", "raise RuntimeError('at import')")
+    add_folder("broken_package", EXAMPLE)
     (tmp_path / "broken_package" / "__init__.py").write_text("raise LookupError('in the package')", encoding="utf-8")
     source = EXAMPLE.replace("class FeatureVolume", "class FeatureTwice(Feature):\n    pass\n\n\nclass FeatureVolume")
-    _add_folder(tmp_path, monkeypatch, "two_classes", source)
-    _add_folder(
-        tmp_path, monkeypatch, "no_actions", EXAMPLE.replace("        return (\n", "        return 1 / 0, (\n", 1)
-    )
+    add_folder("two_classes", source)
+    add_folder("no_actions", EXAMPLE.replace("        return (\n", "        return 1 / 0, (\n", 1))
     reported = []
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: reported.append(kind))
     window = Window()
@@ -175,8 +174,6 @@ def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_pa
     assert "volume" in window.docks.ids()
     window.close()
     window.deleteLater()
-    for name in [name for name in sys.modules if name.endswith(("two_classes.feature", "no_actions.feature"))]:
-        del sys.modules[name]
 
 
 # Examples of docs/development/extending-window.md: a colour map and a layer in window, sessions and pictures.

@@ -14,6 +14,7 @@ import pytest
 from hexmend import gallery, kernels
 from hexmend.kernels import objective
 from tests.patience import PATIENCE
+from tests.programs import run_python
 
 VARIABLES = ("HEXMEND_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT")
 posix = pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
@@ -197,10 +198,7 @@ def test_the_bench_says_threads_build_and_system_without_its_version():
 
 
 def test_a_build_that_there_is_not_is_said_plainly():
-    done = subprocess.run(
-        [sys.executable, "-c", "import hexmend.kernels"],
-        env=os.environ | {"HEXMEND_KERNELS": "v9"}, capture_output=True, text=True,
-    )  # fmt: skip
+    done = run_python("-c", "import hexmend.kernels", variables={"HEXMEND_KERNELS": "v9"})
     assert "HEXMEND_KERNELS = 'v9' names no build that this processor can run: expected" in done.stderr
 
 
@@ -241,10 +239,7 @@ def answers(tmp_path_factory):
     folder, found = tmp_path_factory.mktemp("builds"), {}
     for build in kernels.BUILDS:
         path = folder / f"{build}.npz"
-        done = subprocess.run(
-            [sys.executable, "-c", PROGRAM, build, str(path)], env=os.environ | {"HEXMEND_KERNELS": build},
-            capture_output=True, text=True,
-        )  # fmt: skip
+        done = run_python("-c", PROGRAM, build, path, variables={"HEXMEND_KERNELS": build})
         assert done.returncode == 0, done.stderr
         found[build] = dict(np.load(path))
     return found
@@ -270,7 +265,7 @@ def test_kernels_that_are_not_built_are_one_line(tmp_path):
         "import sys; sys.modules['hexmend.kernels._processor'] = None\n"
         "from hexmend.cli.main import main; sys.exit(main(['info', 'mesh.vtu']))"
     )
-    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = run_python("-c", program, cwd=tmp_path)
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
     assert "kernels of Hexmend are not built" in done.stderr

@@ -1,8 +1,5 @@
 """Input of a mesh: numbers of every type and shape, ownership of arrays, too many hexes."""
 
-import os
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +13,7 @@ from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes
 from tests.core.grids import grid
+from tests.programs import run_python
 
 ONE = np.arange(8)[None]
 TWO = grid(2, 1, 1)
@@ -119,11 +117,7 @@ def test_fields_of_a_mesh_are_checked_when_it_is_made_and_when_they_are_replaced
 @pytest.mark.slow
 def test_wrong_values_end_in_a_sentence_and_never_in_a_crash():
     root = Path(__file__).resolve().parents[3]
-    path = os.pathsep.join(filter(None, [str(root), os.environ.get("PYTHONPATH", "")]))
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "tests.core.hostile"],
-        env=os.environ | {"PYTHONPATH": path}, cwd=root, capture_output=True, text=True,
-    )  # fmt: skip
+    done = run_python("-W", "error", "-m", "tests.core.hostile", paths=[root], cwd=root)
     assert done.returncode == 0, done.stderr[-3000:] or f"the process died of signal {-done.returncode}"
 
 

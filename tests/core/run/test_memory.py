@@ -1,7 +1,5 @@
 """Memory of runs: what methods declare, what there is, and what is said where it will not suffice."""
 
-import os
-import subprocess
 import sys
 
 import numpy as np
@@ -10,6 +8,7 @@ import pytest
 from benchmarks.scale.memory import measure_memory
 from hexmend import METHODS, Recipe, gallery, io
 from hexmend.run.memory import FIXED, available, needed, shortage
+from tests.programs import run_python
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -50,8 +49,7 @@ def mesh_file(tmp_path):
 
 def limited(megabytes, *words):
     """The program where so much more address space than it has may be used."""
-    command = [sys.executable, "-c", LIMITED, str(megabytes), *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, env=os.environ | ALONE)
+    return run_python("-c", LIMITED, megabytes, *words, variables=ALONE)
 
 
 @pytest.mark.slow

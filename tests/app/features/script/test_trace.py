@@ -1,9 +1,6 @@
 """The script of the changes of a mesh runs without the window and makes the same mesh."""
 
-import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -17,6 +14,7 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from tests.app.driving import brought, named, press, run_to_end
+from tests.programs import run_python
 
 SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
@@ -72,7 +70,7 @@ def executed(qtbot, session, tmp_path):
     out.unlink()
     text = Trace(session).text()
     script.write_text(text)
-    done = subprocess.run([sys.executable, "-W", "error", script], capture_output=True, text=True, env=os.environ)
+    done = run_python("-W", "error", script)
     assert done.returncode == 0, f"{done.stderr}\n{text}"
     made, mesh = io.read(out), session.document.now.mesh
     np.testing.assert_allclose(made.points, mesh.points, atol=1e-6)

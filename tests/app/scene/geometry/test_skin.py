@@ -8,13 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
-from hexmend.kernels import set_threads, skin, threads
+from hexmend.kernels import skin
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry.occlusion import ambient_light, directions
 from hexmend_app.scene.geometry.plane_sides import centres_kept, touched
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
+from tests.core.threads import by_threads
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)
 
@@ -224,14 +225,8 @@ def test_light_is_invariant_under_scaling_and_translation(size, far):
 def test_the_result_does_not_depend_on_the_number_of_threads():
     mesh = grid(6, 6, 6)
     polygons, _ = faces(scrambled(mesh, 0.3, 1), np.random.default_rng(1).random(mesh.n_hexes) < 0.5)
-    before, answers = threads(), []
-    try:
-        for count in (1, 2, 5):
-            set_threads(count)
-            answers.append(ambient_light(polygons))
-    finally:
-        set_threads(before)
-    assert all((answer == answers[0]).all() for answer in answers)
+    first, *others = by_threads(lambda: ambient_light(polygons), (1, 2, 5))
+    assert all((answer == first).all() for answer in others)
 
 
 def test_the_computation_can_be_cancelled():

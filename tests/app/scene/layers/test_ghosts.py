@@ -143,25 +143,27 @@ def test_they_are_drawn_unless_switched_off(off_screen):
 WHITE = np.array([255, 255, 255])
 
 
-def board(side, chosen, own_points=False, colour=INVERTED):
-    """Return a board of unit squares in which those at the given (column, row) have a colour."""
+def board(side, colours, own_points=False):
+    """Return a board of unit squares with the given colours, row by row."""
     x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
     points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
     low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
     faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
-    colours = np.full((len(faces), 3), 90, np.uint8)
-    for column, row in chosen:
-        colours[row * side + column] = colour
     if own_points:
         points, faces = points[faces.ravel()], np.arange(4 * len(faces)).reshape(-1, 4)
     return quads(points, faces, colours, np.arange(len(faces)).astype(np.int32))
 
 
+def in_one_colour(side, colour):
+    return np.tile(np.array(colour, np.uint8), (side * side, 1))
+
+
 @pytest.mark.parametrize("own_points", [False, True], ids=["shared points", "own points"])
 def test_the_outline_of_a_region_consists_of_edges_of_a_single_polygon(own_points):
     chosen = [(1, 1), (2, 1), (1, 2), (2, 2)]
-    poly = board(4, chosen, own_points)
     marked = np.isin(np.arange(16), [row * 4 + column for column, row in chosen])
+    colours = np.where(marked[:, None], in_one_colour(4, INVERTED), in_one_colour(4, (90, 90, 90)))
+    poly = board(4, colours, own_points)
     ends, once = outlines(poly, marked)
     assert (len(ends), once.sum()) == (12, 8)
     middles = poly.points[ends].mean(axis=1)
@@ -174,9 +176,8 @@ def white_inside(side, size, colour=INVERTED):
     prepare_off_screen()
     with Stage((size, size)) as stage:
         pane = Pane(stage.window)
-        poly = board(side, [(c, r) for c in range(side) for r in range(side)], colour=colour)
         outline = InvalidOutline(pane.renderer)
-        outline.outline(poly)
+        outline.outline(board(side, in_one_colour(side, colour)))
         pane.camera.SetPosition(0, 0, 1)
         pane.renderer.ResetCamera()
         seen = stage.picture().astype(int)
@@ -195,19 +196,14 @@ def test_large_hexes_are_outlined_individually_and_small_ones_by_region():
 
 def squares(side, colour, size=320, pen=1.0):
     """Return the brightness of the inner pixels of a picture filled by a board of side × side squares."""
-    x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
-    points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]) / side
-    low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
-    faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
-    colours = np.tile(np.array(colour, np.uint8), (len(faces), 1))
     with Stage((size, size)) as stage:
         pane = Pane(stage.window)
         surface = Surface(pane.renderer, pen)
-        surface.replace(quads(points, faces, colours, np.arange(len(faces)).astype(np.int32)))
+        surface.replace(board(side, in_one_colour(side, colour)))
         pane.camera.SetPosition(0, 0, 1)
         pane.renderer.ResetCamera()
         pane.camera.SetParallelProjection(True)
-        pane.camera.SetParallelScale(0.5)
+        pane.camera.SetParallelScale(0.5 * side)
         seen = stage.picture().astype(float).mean(axis=2)
     return seen[20:-20, 20:-20]
 

@@ -17,7 +17,7 @@ from hexmend.io.coordinates.replacement import ChangedFileError, difference
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words, number_texts, parse_fields
 from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import displaced, grid
-from tests.core.io.kept import assert_same, with_everything
+from tests.core.io.kept import assert_same, read_back, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
 #: Formats in which coordinates are replaced, by a file's name.
@@ -90,8 +90,7 @@ def test_files_of_hexmend_keep_all_but_their_coordinates(name, order, tmp_path):
 @pytest.mark.parametrize("name", WRITTEN)
 def test_nodes_that_have_not_moved_leave_the_file_as_it_is(name, tmp_path):
     source, target = tmp_path / name, tmp_path / f"b{Path(name).suffix}"
-    io.write(source, with_everything())
-    mesh = io.read(source)
+    mesh = read_back(source, with_everything())
     assert write_as_given(target, mesh, Original(source, mesh)).replaced
     assert source.read_bytes() == target.read_bytes()
 
@@ -107,8 +106,7 @@ def test_a_file_may_be_replaced_by_itself(name, tmp_path):
 
 def test_a_file_that_has_changed_meanwhile_is_written_anew_elsewhere_and_never_overwritten(tmp_path):
     source = tmp_path / "a.inp"
-    io.write(source, with_everything())
-    given = io.read(source)
+    given = read_back(source, with_everything())
     io.write(source, moved(given, 3))
     data = source.read_bytes()
     written = write_as_given(tmp_path / "b.inp", moved(given), Original(source, given))
@@ -121,8 +119,7 @@ def test_a_file_that_has_changed_meanwhile_is_written_anew_elsewhere_and_never_o
 
 def test_a_file_that_is_gone_is_written_anew_and_it_is_said(tmp_path):
     source = tmp_path / "a.inp"
-    io.write(source, with_everything())
-    given = io.read(source)
+    given = read_back(source, with_everything())
     source.unlink()
     written = write_as_given(tmp_path / "b.inp", given, Original(source, given))
     assert not written.replaced
@@ -142,8 +139,7 @@ def test_a_file_that_is_gone_is_written_anew_and_it_is_said(tmp_path):
 )
 def test_a_mesh_that_differs_in_more_than_coordinates_is_written_anew_and_it_is_said(change, words, tmp_path):
     source, target = tmp_path / "a.exo", tmp_path / "b.exo"
-    io.write(source, with_everything())
-    given = io.read(source)
+    given = read_back(source, with_everything())
     mesh = change(given)
     written = write_as_given(target, mesh, Original(source, given))
     assert not written.replaced
@@ -154,16 +150,14 @@ def test_a_mesh_that_differs_in_more_than_coordinates_is_written_anew_and_it_is_
 
 
 def test_pins_that_the_format_cannot_hold_do_not_cost_the_rest_of_the_file(tmp_path):
-    io.write(tmp_path / "a.inp", with_everything())
-    given = io.read(tmp_path / "a.inp")
+    given = read_back(tmp_path / "a.inp", with_everything())
     mesh = moved(given).replace(pinned=np.ones(given.n_nodes, bool))
     assert write_as_given(tmp_path / "b.inp", mesh, Original(tmp_path / "a.inp", given)).replaced
 
 
 @pytest.mark.parametrize("name", ["a.bdf", "a.inp"])
 def test_a_file_that_has_rounded_coordinates_can_be_replaced_again(name, tmp_path):
-    io.write(tmp_path / name, with_everything())
-    given = io.read(tmp_path / name)
+    given = read_back(tmp_path / name, with_everything())
     first = moved(given)
     assert write_as_given(tmp_path / name, first, Original(tmp_path / name, given)).replaced
     second = moved(first, 3)
@@ -174,8 +168,7 @@ def test_a_file_that_has_rounded_coordinates_can_be_replaced_again(name, tmp_pat
 def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
     mesh = with_everything()
     mirrored = hx.Mesh(mesh.points * [1, 1, -1], mesh.hexes)
-    io.write(tmp_path / "a.msh", mirrored, encoding="ascii")
-    given = io.read(tmp_path / "a.msh")
+    given = read_back(tmp_path / "a.msh", mirrored, encoding="ascii")
     assert not np.array_equal(given.hexes, mirrored.hexes)
     written = write_as_given(tmp_path / "b.msh", moved(given), Original(tmp_path / "a.msh", given))
     assert any("inside out" in note for note in written.notes)
@@ -186,8 +179,7 @@ def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
 def test_a_file_in_which_some_hexes_are_left_handed_is_rewritten_with_all_of_them_right_handed(tmp_path):
     mesh = grid(3)
     mixed = mirror_hexes(mesh, np.arange(27) % 2 == 0)
-    io.write(tmp_path / "a.msh", mixed, encoding="ascii")
-    given = io.read(tmp_path / "a.msh")
+    given = read_back(tmp_path / "a.msh", mixed, encoding="ascii")
     written = write_as_given(tmp_path / "b.msh", moved(given), Original(tmp_path / "a.msh", given))
     assert not written.replaced
     assert "some hexes of a.msh are numbered inside out" in written.notes[0]

@@ -8,14 +8,14 @@ import pytest
 from hexmend import FileError, io, smooth, summarise
 from hexmend.cli.main import main
 from tests.core.grids import grid, scrambled
+from tests.core.io.kept import read_back, read_content
 
 FILES = Path(__file__).parents[2] / "files"
 
 
 def test_a_mesh_without_ids_is_numbered_from_1(tmp_path):
     mesh = grid(2)
-    io.write(tmp_path / "a.msh", mesh)
-    assert io.read(tmp_path / "a.msh").node_data["id"].tolist() == list(range(1, 28))
+    assert read_back(tmp_path / "a.msh", mesh).node_data["id"].tolist() == list(range(1, 28))
 
 
 HEAD = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
@@ -24,8 +24,7 @@ NODES = "$Nodes\n8\n" + "".join(f"{k + 1} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k
 
 def test_a_hex_in_two_groups_is_one_hex_and_claimed_counts_are_checked(tmp_path):
     elements = "$Elements\n2\n1 5 2 1 1 1 2 4 3 5 6 8 7\n2 5 2 2 1 1 2 4 3 5 6 8 7\n$EndElements\n"
-    (tmp_path / "a.msh").write_text(HEAD + NODES + elements)
-    mesh = io.read(tmp_path / "a.msh")
+    mesh = read_content(tmp_path / "a.msh", HEAD + NODES + elements)
     assert mesh.n_hexes == 1
     assert set(mesh.hex_sets) == {"physical 1", "physical 2"}
     binary = (FILES / "gmsh-o1-4.1-b.msh").read_bytes()
@@ -39,8 +38,7 @@ def test_data_of_some_nodes_are_nan_for_the_others(tmp_path):
     elements = "$Elements\n1\n7 5 2 1 1 1 2 4 3 5 6 8 7\n$EndElements\n"
     data = '$NodeData\n1\n"heat"\n1\n0.5\n3\n0\n1\n2\n3 1.5\n1 2.5\n$EndNodeData\n'
     data += '$ElementData\n1\n"flow"\n1\n0.5\n3\n0\n3\n1\n7 1 2 3\n$EndElementData\n'
-    (tmp_path / "a.msh").write_text(HEAD + NODES + elements + data)
-    mesh = io.read(tmp_path / "a.msh")
+    mesh = read_content(tmp_path / "a.msh", HEAD + NODES + elements + data)
     np.testing.assert_array_equal(mesh.node_data["heat"], [2.5, np.nan, 1.5] + [np.nan] * 5)
     assert mesh.hex_data["flow"].tolist() == [[1, 2, 3]]
 
@@ -52,8 +50,7 @@ def test_data_called_fixed_of_some_nodes_fix_these_alone(tmp_path):
         file.write(data)
     mesh = io.read(tmp_path / "a.msh")
     assert np.flatnonzero(mesh.pinned).tolist() == [13]
-    io.write(tmp_path / "b.vtu", mesh)
-    assert np.flatnonzero(io.read(tmp_path / "b.vtu").pinned).tolist() == [13]
+    assert np.flatnonzero(read_back(tmp_path / "b.vtu", mesh).pinned).tolist() == [13]
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "binary"])
@@ -65,8 +62,7 @@ def test_data_of_other_widths_are_padded_or_left_out_and_that_is_reported(encodi
         "the width of point data, filled up to 3 or 9 columns (six, two)",
         "cell data of more than 9 columns, or no numbers (word)",
     ]
-    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
-    back = io.read(tmp_path / "a.msh").node_data
+    back = read_back(tmp_path / "a.msh", mesh, encoding=encoding).node_data
     assert back["six"][0].tolist() == [6] * 6 + [0] * 3
     assert {name: values.shape for name, values in back.items() if name != "id"} == {
         "two": (8, 3), "six": (8, 9), "tensor": (8, 9)
@@ -279,8 +275,7 @@ def partitioned(version, binary):
 
 @pytest.mark.parametrize(("version", "binary"), [(2, False), (4, False), (4, True)])
 def test_a_partitioned_mesh_keeps_its_groups_and_the_partition_of_each_cell(version, binary, tmp_path):
-    (tmp_path / "a.msh").write_bytes(partitioned(version, binary))
-    mesh = io.read(tmp_path / "a.msh")
+    mesh = read_content(tmp_path / "a.msh", partitioned(version, binary))
     (quads,) = mesh.cells
     assert mesh.hex_sets["vol"].tolist() == [0, 1, 2]
     assert quads.sets["in"].tolist() == [0, 1, 2]
@@ -288,8 +283,7 @@ def test_a_partitioned_mesh_keeps_its_groups_and_the_partition_of_each_cell(vers
     assert mesh.hex_data["partition"].tolist() == [1, 2, 3]
     assert quads.data["partition"].tolist() == [1, 2, 3]
     assert any("The mesh is partitioned" in note for note in mesh.notes)
-    io.write(tmp_path / "b.msh", mesh)
-    again = io.read(tmp_path / "b.msh")
+    again = read_back(tmp_path / "b.msh", mesh)
     assert again.hex_data["partition"].tolist() == [1, 2, 3]
     assert again.hex_sets.keys() == mesh.hex_sets.keys()
 
@@ -300,11 +294,9 @@ def test_data_named_partition_are_kept_together_with_the_partition_numbers(own, 
         b'$ElementData\n1\n"%s"\n1\n0\n3\n0\n1\n3\n4 42\n5 43\n6 44\n$EndElementData\n' % name
         for name in [b"partition", *own]
     )
-    (tmp_path / "a.msh").write_bytes(partitioned(2, False) + data)
-    mesh = io.read(tmp_path / "a.msh")
+    mesh = read_content(tmp_path / "a.msh", partitioned(2, False) + data)
     title = "partition_3" if own else "partition_2"
     assert mesh.hex_data["partition"].tolist() == [42, 43, 44]
     assert mesh.hex_data[title].tolist() == [1, 2, 3]
     assert any(f"the cell data {title!r} hold" in note for note in mesh.notes)
-    io.write(tmp_path / "b.msh", mesh)
-    assert io.read(tmp_path / "b.msh").hex_data[title].tolist() == [1, 2, 3]
+    assert read_back(tmp_path / "b.msh", mesh).hex_data[title].tolist() == [1, 2, 3]

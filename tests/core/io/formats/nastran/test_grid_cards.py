@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend import io
 from hexmend.io import Original, write_as_given
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from tests.core.io.kept import read_content
 
 HEAD = ["$ our model", "SOL 101", "CEND", "SUBCASE 1", "  LOAD = 5", "BEGIN BULK"]
 TAIL = ["CHEXA   1       1       1       2       3       4       5       6", "        7       8", "$ steel"]
@@ -56,8 +57,7 @@ def deck(tmp_path, layouts, breaks="\n", between=()):
         card = layout(k, *point)
         lines += [card[0], *between, *card[1:]]
     path = tmp_path / "in.bdf"
-    path.write_bytes(breaks.join([*lines, *TAIL, ""]).encode())
-    return path, io.read(path)
+    return path, read_content(path, breaks.join([*lines, *TAIL, ""]).encode())
 
 
 @given(
@@ -98,8 +98,7 @@ def test_blocks_of_cards_are_replaced_too(layout, tmp_path):
     lines = [line for k, point in enumerate(grid.tolist(), 1) for line in layout(k, *point)]
     hexes = "CHEXA   1       1       1       26      31      6       2       27\n        32      7"
     path = tmp_path / "in.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *lines, hexes, "ENDDATA"]))
-    mesh = io.read(path)
+    mesh = read_content(path, "\n".join(["BEGIN BULK", *lines, hexes, "ENDDATA"]))
     points = mesh.points + np.linspace(0, 0.1, 375).reshape(125, 3)
     written = write_as_given(tmp_path / "out.bdf", mesh.with_points(points), Original(path, mesh))
     assert written.replaced

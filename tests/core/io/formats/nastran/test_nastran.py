@@ -10,20 +10,18 @@ from hexmend.io.formats.nastran.cards import real_field
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
 from tests.core.io.base.test_capabilities import quadratic
-from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+from tests.core.io.kept import assert_same, middles_are_in_the_middle, read_back, read_content, with_everything
 
 GRIDS = "".join(f"GRID,{k + 1},,{x},{y},{z}\n" for k, (x, y, z) in enumerate(UNIT_CUBE.tolist()))
 CUBE = f"BEGIN BULK\n{GRIDS}CHEXA,9,4,1,2,3,4,5,6\n,7,8\nENDDATA\n"
 
 
 def read(text, tmp_path):
-    (tmp_path / "a.bdf").write_text(text)
-    return io.read(tmp_path / "a.bdf")
+    return read_content(tmp_path / "a.bdf", text)
 
 
 def test_hexes_of_27_nodes_are_written_with_20(tmp_path):
-    io.write(tmp_path / "a.bdf", with_everything(27))
-    mesh = io.read(tmp_path / "a.bdf")
+    mesh = read_back(tmp_path / "a.bdf", with_everything(27))
     assert ((mesh.mid_nodes >= 0).sum(axis=1) == 12).all()
     assert mesh.n_nodes == with_everything(27).n_nodes - 7 * mesh.n_hexes
     middles_are_in_the_middle(mesh)
@@ -74,8 +72,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
 def test_elements_keep_their_properties_or_the_loss_is_reported(sets, members, said, tmp_path):
     mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
     assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
-    io.write(tmp_path / "a.bdf", mesh)
-    assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members
+    assert {name: rows.tolist() for name, rows in read_back(tmp_path / "a.bdf", mesh).hex_sets.items()} == members
 
 
 def test_rounded_digits_are_reported(tmp_path):
@@ -84,8 +81,7 @@ def test_rounded_digits_are_reported(tmp_path):
     for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
         mesh = Mesh(fine.points * scale, fine.hexes)
         assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
-        io.write(tmp_path / "a.bdf", mesh)
-        assert np.array_equal(io.read(tmp_path / "a.bdf").points, mesh.points) == (not said)
+        assert np.array_equal(read_back(tmp_path / "a.bdf", mesh).points, mesh.points) == (not said)
 
 
 def test_continuations_behind_all_cards_are_an_error_and_behind_theirs_are_read(tmp_path):

@@ -9,6 +9,7 @@ import pytest
 from hexmend import FileError, Mesh, io, summarise
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from tests.core.grids import grid
+from tests.core.io.kept import read_back, read_content
 
 
 def written(points, hexes, properties="", seed=0) -> str:
@@ -48,8 +49,7 @@ def written(points, hexes, properties="", seed=0) -> str:
 @pytest.mark.parametrize("seed", range(2))
 def test_hexes_are_found_in_half_faces(seed, tmp_path):
     mesh = grid(3, 2, 2)
-    (tmp_path / "a.ovm").write_text(written(mesh.points, mesh.hexes, seed=seed))
-    found = io.read(tmp_path / "a.ovm")
+    found = read_content(tmp_path / "a.ovm", written(mesh.points, mesh.hexes, seed=seed))
     np.testing.assert_array_equal(np.sort(found.hexes, axis=1), np.sort(mesh.hexes, axis=1))
     assert summarise(found).q_min == pytest.approx(1)
     assert found.notes == ()
@@ -60,8 +60,7 @@ def test_properties_are_data(tmp_path):
         'VProp double "heat"\n' + "0.5\n" * 8 + 'HFProp int "odd"\n' + "3\n" * 12 + 'CProp vec3d "flow x"\n1 2 3\n'
     )
     properties += 'CProp int "id"\n7\n'
-    (tmp_path / "a.ovm").write_text(written(UNIT_CUBE, np.arange(8)[None], properties))
-    mesh = io.read(tmp_path / "a.ovm")
+    mesh = read_content(tmp_path / "a.ovm", written(UNIT_CUBE, np.arange(8)[None], properties))
     assert mesh.node_data["heat"].tolist() == [0.5] * 8
     assert mesh.hex_data["flow x"].tolist() == [[1, 2, 3]]
     assert mesh.hex_data["id"].tolist() == [7]
@@ -72,8 +71,7 @@ def test_other_polyhedra_are_left_out_and_said(tmp_path):
     text = written(UNIT_CUBE, np.arange(8)[None])
     head, cells = text.split("Polyhedra\n1\n")
     five = " ".join(cells.split()[1:6])
-    (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n2\n5 {five}\n{cells}")
-    mesh = io.read(tmp_path / "a.ovm")
+    mesh = read_content(tmp_path / "a.ovm", f"{head}Polyhedra\n2\n5 {five}\n{cells}")
     assert mesh.n_hexes == 1
     assert mesh.notes == ("Not read: 1 polyhedron of another kind.",)
     (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n1\n5 {five}\n")
@@ -148,8 +146,7 @@ def test_every_edge_and_face_is_there_once_and_shared(tmp_path):
 def test_a_real_file_is_written_with_its_own_edges_and_faces(real_mesh, tmp_path):
     path = real_mesh("Cylinder.ovm")
     mesh = io.read(path)
-    io.write(tmp_path / "a.ovm", mesh)
-    again = io.read(tmp_path / "a.ovm")
+    again = read_back(tmp_path / "a.ovm", mesh)
     np.testing.assert_array_equal(again.hexes, mesh.hexes)
     np.testing.assert_array_equal(again.points, mesh.points)
     for name in ("Edges", "Faces", "Polyhedra"):
@@ -182,8 +179,7 @@ def test_what_the_format_has_no_type_for_is_named(tmp_path):
         "point data of more than 4 columns, or no numbers (large, tensor)",
         'names of point data and sets as they are (a"b)',
     ]
-    io.write(tmp_path / "a.ovm", mesh)
-    back = io.read(tmp_path / "a.ovm")
+    back = read_back(tmp_path / "a.ovm", mesh)
     assert {name: values[0] for name, values in back.node_data.items()} == {"a'b 2": 1, "a'b": 0}
 
 
