@@ -16,14 +16,6 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
-def gate():
-    """Event that threads wait for; set at the end, so that a failing test leaves no thread."""
-    gate = threading.Event()
-    yield gate
-    gate.set()
-
-
-@pytest.fixture
 def windows(tmp_path, monkeypatch):
     """The folder of the folders in which windows are kept safe from a crash."""
     monkeypatch.setenv(VARIABLE, str(tmp_path / "state"))

@@ -13,6 +13,7 @@ from hexmend.boundary.feature_edges.prominence import surrounding_angles
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
 from hexmend.mesh.second_order import MID_EDGES
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.boundary.test_boundary import counts
 from tests.core.grids import grid
 
 
@@ -124,10 +125,6 @@ def test_there_are_no_edges_without_faces_and_a_node_that_does_not_exist_is_reje
 
 
 # Features that stand out from the surface around them, and corners that stand out from their curve.
-
-
-def counts(boundary):
-    return [boundary.count(of) for of in (NodeClass.CORNER, NodeClass.CURVE, NodeClass.PATCH)]
 
 
 @pytest.mark.parametrize("around", [12, 16, 32])

@@ -9,7 +9,7 @@ from hexmend.boundary.sliding.quad_normals import QuadNormals
 from hexmend.gallery import make
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
-from tests.core.smoothers.test_sliding_on_surface import skin_of
+from tests.core.smoothers.test_sliding_smoother import skin_of
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.run import memory
 from tests.core.boundary.solids import ball, slid
-from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
+from tests.core.smoothers.test_sliding_smoother import skin_of, write_stl
 
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, run_command):

@@ -11,7 +11,7 @@ from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click_until, open_and_wait, open_mesh
 from tests.core.boundary.solids import ball, slid
-from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
+from tests.core.smoothers.test_sliding_smoother import skin_of, write_stl
 
 SKIN = skin_of(ball(8))
 

@@ -6,7 +6,7 @@ import pytest
 from hexmend import METHODS, MotionRules, StoppingCriteria, smooth
 from hexmend_app.features.compare.feature import FeatureCompare
 from hexmend_app.state.session import session_data
-from tests.app.features.smooth.test_rules import two_materials
+from tests.app.features.smooth.test_feature import two_materials
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 RULES = MotionRules(interfaces="free", fix=("inside",))

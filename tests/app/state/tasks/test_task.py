@@ -14,14 +14,6 @@ from hexmend_app.state.tasks.thread_priority import lower_priority
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 
 
-@pytest.fixture
-def gate():
-    """Return an event that threads wait for; set at the end, so that a failing test leaves no thread waiting."""
-    gate = threading.Event()
-    yield gate
-    gate.set()
-
-
 def test_reports_come_in_order_and_before_the_end_in_the_thread_that_made_the_task(qtbot):
     signals, threads = [], []
 

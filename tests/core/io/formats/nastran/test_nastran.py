@@ -160,11 +160,7 @@ def test_hexes_with_some_mid_nodes_are_distinguished_from_those_with_all(tmp_pat
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        (
-            "GRID*   100             ",
-            "GRID*   1x0             ",
-            "GRID in line 65 holds '1x0': expected a whole number",
-        ),
+        ("GRID*   100 ", "GRID*   1x0 ", "GRID in line 65 holds '1x0': expected a whole number"),
         ("GRID*   100             " + " " * 16, "GRID*   100             2" + " " * 15, "GRID in line 65 is in the"),
         ("CHEXA   1000    ", "CHEXA   -1-0    ", "CHEXA in line 253 holds '-1-0': expected a whole number"),
     ],
