@@ -403,6 +403,6 @@ def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, 
 @pytest.mark.slow
 def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
     tangled = io.read(real_mesh("pierrot_32735.mesh"))
-    result = smooth(start, "smart-laplacian")
+    result = smooth(tangled, "smart-laplacian")
     assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
     assert "was kept: " in result.message
