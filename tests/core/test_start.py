@@ -47,16 +47,16 @@ def folder(tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        [],
-        *(
-            pytest.param(more, marks=pytest.mark.slow)
-            for more in (["--boundary", "slide"], ["--set", "goal=scaled-jacobian"])
-        ),
-    ],
-)
+MENDING = [
+    [],
+    *(
+        pytest.param(more, marks=pytest.mark.slow)
+        for more in (["--boundary", "slide"], ["--set", "goal=scaled-jacobian"])
+    ),
+]
+
+
+@pytest.mark.parametrize("words", MENDING)
 def test_a_tangled_mesh_is_mended_without_scipy(folder, tmp_path, words):
     said, modules = program("smooth", str(folder / "tangled.vtk"), "-o", str(tmp_path / "out.vtk"), *words)
     assert "no hex is invalid" in said

@@ -44,22 +44,22 @@ _DEEP = ".".join("a" * (MAX_KEY_PARTS + 3))
 _QUOTED = "'''"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        f"{_DEEP} = 1",
-        f"[{_DEEP}]",
-        f"x = {{ {_DEEP} = 1 }}",
-        f"x = [1, {{ b = 1, {_DEEP} = 1 }}]",
-        f'"=".{_DEEP} = 1',
-        f"'#'.{_DEEP} = 1",
-        _DEEP.replace("a", '"a"') + " = 1",
-        _DEEP.replace(".", "\t. ") + " = 1",
-        f'x = "\\"" # "\n{_DEEP} = 1',
-        f'x = """a"""""\n{_DEEP} = 1',
-        f"x = {_QUOTED}a{_QUOTED}''\n{_DEEP} = 1",
-    ],
-)
+KEYS_OF_TOO_MANY_PARTS = [
+    f"{_DEEP} = 1",
+    f"[{_DEEP}]",
+    f"x = {{ {_DEEP} = 1 }}",
+    f"x = [1, {{ b = 1, {_DEEP} = 1 }}]",
+    f'"=".{_DEEP} = 1',
+    f"'#'.{_DEEP} = 1",
+    _DEEP.replace("a", '"a"') + " = 1",
+    _DEEP.replace(".", "\t. ") + " = 1",
+    f'x = "\\"" # "\n{_DEEP} = 1',
+    f'x = """a"""""\n{_DEEP} = 1',
+    f"x = {_QUOTED}a{_QUOTED}''\n{_DEEP} = 1",
+]
+
+
+@pytest.mark.parametrize("text", KEYS_OF_TOO_MANY_PARTS)
 def test_keys_of_too_many_parts_are_refused_wherever_they_stand(text):
     with pytest.raises(ParameterError, match=f"line {len(text.splitlines())} has a key of more than"):
         parse_toml(text, "a scene")

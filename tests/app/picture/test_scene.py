@@ -134,31 +134,31 @@ def test_a_moved_slab_keeps_its_thickness():
     assert slab.moved_to(slab.middle) == slab
 
 
-@pytest.mark.parametrize(
-    ("keys", "message"),
-    [
-        ({"slab": Slab(), "sphere": Sphere()}, "a slab and a sphere: expected one of them"),
-        ({"planes": (Plane(),), "depth": Depth()}, "planes and a depth"),
-        ({"sphere": Sphere(), "style": CutStyle.SMOOTH}, "a cut by sphere has whole hexes"),
-        ({"depth": Depth(), "style": CutStyle.SMOOTH}, "a cut by depth has whole hexes"),
-    ],
-)
+CONTRADICTIONS = [
+    ({"slab": Slab(), "sphere": Sphere()}, "a slab and a sphere: expected one of them"),
+    ({"planes": (Plane(),), "depth": Depth()}, "planes and a depth"),
+    ({"sphere": Sphere(), "style": CutStyle.SMOOTH}, "a cut by sphere has whole hexes"),
+    ({"depth": Depth(), "style": CutStyle.SMOOTH}, "a cut by depth has whole hexes"),
+]
+
+
+@pytest.mark.parametrize(("keys", "message"), CONTRADICTIONS)
 def test_contradicting_shapes_are_rejected(keys, message):
     with pytest.raises(ParameterError, match=message):
         Cut(**keys)
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: Slab(position=0.5, point=(0, 0, 0)), "the slab has a position and a point"),
-        (lambda: Slab((0, 0, 0)), "no direction"),
-        (lambda: Slab(thickness=-1.0), "thickness = -1"),
-        (lambda: Sphere((0.0, 2.0, 0.0), shares=True), "fractions from 0 to 1"),
-        (lambda: Sphere(radius=-1.0), "radius = -1"),
-        (lambda: Depth(3, 2), "from 3 to 2: expected the lower number first"),
-    ],
-)
+INVALID_SHAPES = [
+    (lambda: Slab(position=0.5, point=(0, 0, 0)), "the slab has a position and a point"),
+    (lambda: Slab((0, 0, 0)), "no direction"),
+    (lambda: Slab(thickness=-1.0), "thickness = -1"),
+    (lambda: Sphere((0.0, 2.0, 0.0), shares=True), "fractions from 0 to 1"),
+    (lambda: Sphere(radius=-1.0), "radius = -1"),
+    (lambda: Depth(3, 2), "from 3 to 2: expected the lower number first"),
+]
+
+
+@pytest.mark.parametrize(("make", "message"), INVALID_SHAPES)
 def test_invalid_shapes_are_rejected(make, message):
     with pytest.raises(ParameterError, match=message):
         make()

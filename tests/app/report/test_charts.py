@@ -132,13 +132,13 @@ def test_a_figure_is_as_wide_as_it_is_asked_to_be(tmp_path, stem):
         assert float(root.get("width").removesuffix("pt")) == pytest.approx(width / 25.4 * 72, abs=0.1)
 
 
-@pytest.mark.parametrize(
-    ("stem", "name"),
-    [
-        ("distributions", "$x_{ and $ of\ntwo lines"),
-        ("convergence", "bell\a, bad\udcff and ]]> & <svg>"),
-    ],
-)
+NAMES_FROM_FILES = [
+    ("distributions", "$x_{ and $ of\ntwo lines"),
+    ("convergence", "bell\a, bad\udcff and ]]> & <svg>"),
+]
+
+
+@pytest.mark.parametrize(("stem", "name"), NAMES_FROM_FILES)
 def test_names_from_files_are_plain_text(tmp_path, stem, name):
     assert len(list(ET.parse(draw(tmp_path / f"{stem}.svg", name)).iter())) > 50
 

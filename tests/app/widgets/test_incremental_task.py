@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QPushButton
 
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.incremental_task import IncrementalTask
-from tests.app.driving import LEFT
+from tests.app.driving import LEFT, button
 
 
 class Source:
@@ -65,8 +65,7 @@ def test_a_task_can_be_cancelled(task, busy, signals, qtbot):
     source = Source(10**9)
     task.begin(source.numbers(), describe)
     qtbot.waitUntil(lambda: source.taken > 0)
-    cancel = next(one for one in busy.findChildren(QPushButton) if one.text() == "Cancel")
-    QTest.mouseClick(cancel, LEFT)
+    QTest.mouseClick(button(busy, "Cancel"), LEFT)
     assert not task.going_on
     assert source.closed
     assert busy.isHidden()

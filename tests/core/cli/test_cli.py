@@ -65,26 +65,23 @@ def test_gallery_makes_a_mesh(tmp_path, capsys):
     assert io.read(out).n_hexes == 7350
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (
-            ["smooth", "{mesh}", "-o", "{out}", "--method", "lokal-sd"],
-            "there is no method 'lokal-sd': did you mean local-sd?",
-        ),
-        (["smooth", "{mesh}", "-o", "{out}", "--method", "local-sd", "--set", "q=1"], "local-sd has no parameter 'q'"),
-        (["smooth", "{mesh}", "-o", "{out}", "--set", "p"], "expected key=value"),
-        (["smooth", "{mesh}", "-o", "{out}", "--max-iterations", "-3"], "max_iterations = -3 is out of range"),
-        (["gallery", "five-sides", "-o", "{out}"], "did you mean five-side?"),
-        (["gallery", "five-side"], "expected -o MESH"),
-        (["smooth", "{mesh}", "-o", "{out}", "--goal", "time-step", "--set", "goal=shape"], "set the same value"),
-        (["smooth", "{mesh}", "-o", "{out}", "--goal", "shape", "--method", "laplacian"], "only mend has goals"),
-        (
-            ["smooth", "{mesh}", "-o", "{out}", "--goal", "shape", "--recipe", "absent.toml"],
-            "--recipe names its methods",
-        ),
-    ],
-)
+WRONG_USAGE = [
+    (
+        ["smooth", "{mesh}", "-o", "{out}", "--method", "lokal-sd"],
+        "there is no method 'lokal-sd': did you mean local-sd?",
+    ),
+    (["smooth", "{mesh}", "-o", "{out}", "--method", "local-sd", "--set", "q=1"], "local-sd has no parameter 'q'"),
+    (["smooth", "{mesh}", "-o", "{out}", "--set", "p"], "expected key=value"),
+    (["smooth", "{mesh}", "-o", "{out}", "--max-iterations", "-3"], "max_iterations = -3 is out of range"),
+    (["gallery", "five-sides", "-o", "{out}"], "did you mean five-side?"),
+    (["gallery", "five-side"], "expected -o MESH"),
+    (["smooth", "{mesh}", "-o", "{out}", "--goal", "time-step", "--set", "goal=shape"], "set the same value"),
+    (["smooth", "{mesh}", "-o", "{out}", "--goal", "shape", "--method", "laplacian"], "only mend has goals"),
+    (["smooth", "{mesh}", "-o", "{out}", "--goal", "shape", "--recipe", "absent.toml"], "--recipe names its methods"),
+]
+
+
+@pytest.mark.parametrize(("words", "message"), WRONG_USAGE)
 def test_wrong_usage_is_status_2_and_one_line(words, message, mesh, tmp_path, complaint):
     words = [word.format(mesh=mesh, out=tmp_path / "out.vtu") for word in words]
     assert message in complaint(*words)
@@ -106,20 +103,20 @@ def test_help_lists_every_command(run_command):
 # Mistakes in the words of a command: one line, which names the word, the nearest name, and where to read on.
 
 
-@pytest.mark.parametrize(
-    ("words", "problem"),
-    [
-        (["smooth", "a.vtu", "-o", "b.vtu", "--boundry", "slide"], "no option --boundry: did you mean --boundary?"),
-        (["smooth", "a.vtu", "--outptu=b.vtu"], "there is no option --outptu: did you mean --output?"),
-        (["smooth", "a.vtu", "-o", "b.vtu", "--boundary", "slid"], "--boundary slid is unknown: did you mean slide?"),
-        (["smooth", "a.vtu", "-o", "b.vtu", "--xyzzy"], "there is no option --xyzzy."),
-        (["smooth", "a.vtu"], "missing: -o OUT (the smoothed mesh to write)."),
-        (["smooth"], "missing: MESH (the mesh file), and -o OUT (the smoothed mesh to write)."),
-        (["smooth", "a.vtu", "b.vtu", "-o", "c.vtu"], "'b.vtu' is one word too many."),
-        (["smooth", "a.vtu", "-o", "b.vtu", "--BOUNDARY", "slide"], "no option --BOUNDARY: did you mean --boundary?"),
-        (["smooth", "a.vtu", "-o", "b.vtu", "--only"], "argument --only: expected one argument."),
-    ],
-)
+MISTAKES = [
+    (["smooth", "a.vtu", "-o", "b.vtu", "--boundry", "slide"], "no option --boundry: did you mean --boundary?"),
+    (["smooth", "a.vtu", "--outptu=b.vtu"], "there is no option --outptu: did you mean --output?"),
+    (["smooth", "a.vtu", "-o", "b.vtu", "--boundary", "slid"], "--boundary slid is unknown: did you mean slide?"),
+    (["smooth", "a.vtu", "-o", "b.vtu", "--xyzzy"], "there is no option --xyzzy."),
+    (["smooth", "a.vtu"], "missing: -o OUT (the smoothed mesh to write)."),
+    (["smooth"], "missing: MESH (the mesh file), and -o OUT (the smoothed mesh to write)."),
+    (["smooth", "a.vtu", "b.vtu", "-o", "c.vtu"], "'b.vtu' is one word too many."),
+    (["smooth", "a.vtu", "-o", "b.vtu", "--BOUNDARY", "slide"], "no option --BOUNDARY: did you mean --boundary?"),
+    (["smooth", "a.vtu", "-o", "b.vtu", "--only"], "argument --only: expected one argument."),
+]
+
+
+@pytest.mark.parametrize(("words", "problem"), MISTAKES)
 def test_a_mistake_is_one_line_with_the_nearest_name(words, problem, complaint):
     line = complaint(*words)
     assert problem in line

@@ -117,13 +117,13 @@ def test_a_part_is_kept_or_made_larger(tmp_path, capsys):
     assert commands == [["hexmend", "smooth", out, "-o", "OUT", "--only", "some", "--rings", "2"]]
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["--rings", "2"], "--rings 2 is for a part of the mesh: name it with --only, or leave it out"),
-        (["--only", "some", "--rings", "-1"], "--rings -1 is out of bounds: expected a number of at least 0"),
-    ],
-)
+RINGS = [
+    (["--rings", "2"], "--rings 2 is for a part of the mesh: name it with --only, or leave it out"),
+    (["--only", "some", "--rings", "-1"], "--rings -1 is out of bounds: expected a number of at least 0"),
+]
+
+
+@pytest.mark.parametrize(("words", "said"), RINGS)
 def test_rings_are_of_a_part_of_the_mesh(words, said, tmp_path, run_command):
     path, out = tmp_path / "mesh.vtu", tmp_path / "out.vtu"
     io.write(path, folded())

@@ -208,16 +208,16 @@ def test_a_named_pipe_is_not_waited_for(words, mesh_name):
     assert "pipe.vtu: is a named pipe: expected the name of a file to write." in done.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["info", ""],
-        ["smooth", "mesh.vtu", "-o", ""],
-        ["smooth", "mesh.vtu", "-o", "out.vtu", "--recipe", ""],
-        ["smooth", "mesh.vtu", "-o", "out.vtu", "--fix", ""],
-        ["study", "recipe.toml", "mesh.vtu", "--scheduler", ""],
-    ],
-)
+EMPTY_WORDS = [
+    ["info", ""],
+    ["smooth", "mesh.vtu", "-o", ""],
+    ["smooth", "mesh.vtu", "-o", "out.vtu", "--recipe", ""],
+    ["smooth", "mesh.vtu", "-o", "out.vtu", "--fix", ""],
+    ["study", "recipe.toml", "mesh.vtu", "--scheduler", ""],
+]
+
+
+@pytest.mark.parametrize("words", EMPTY_WORDS)
 def test_empty_words_are_refused(words, mesh_name, run_command):
     assert "is empty: expected a value." in run_command(*words, status=2).err
     assert os.listdir() == [mesh_name]

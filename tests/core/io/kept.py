@@ -80,8 +80,10 @@ def read_content(path: Path, content: str | bytes) -> Mesh:
     return io.read(path)
 
 
-def assert_refused(path: Path, words: str) -> None:
-    """Fail unless a file is refused with a sentence that holds the words."""
+def assert_refused(path: Path, words: str, content: str | None = None) -> None:
+    """Fail unless a file, with its content if that is given, is refused with a sentence that holds the words."""
+    if content is not None:
+        path.write_text(content)
     with pytest.raises(FileError) as error:
         io.read(path)
     assert words in str(error.value)

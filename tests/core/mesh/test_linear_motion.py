@@ -143,19 +143,19 @@ def test_admissible_displacements_are_the_nearest():
         assert abs(np.sum((given - nearest) * other)) < 1e-12
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: LinearMotion(nodes=[3], projectors=[np.eye(3) * 0.5]), "projector of node 3 is none"),
-        (lambda: LinearMotion.in_planes([3], [0.0, 0, 0]), "normals of node 3 are"),
-        (lambda: LinearMotion.in_planes([3, 4], [[0.0, 0, 1]]), "expected .3,. or .2, 3."),
-        (lambda: LinearMotion.in_planes([-3], [0.0, 0, 1]), "numbers of nodes"),
-        (lambda: LinearMotion.tying([3], [4], np.ones((3, 3))), "rotation of node 3 is none"),
-        (lambda: LinearMotion.tying([3], [4, 5]), "1 tied nodes have 2 masters"),
-        (lambda: LinearMotion(nodes=[3]), "expected .1, 3, 3."),
-        (lambda: MESH.with_linear_motion(LinearMotion.keeping([125])), "names node 125, but the mesh has 125"),
-    ],
-)
+ERRORS = [
+    (lambda: LinearMotion(nodes=[3], projectors=[np.eye(3) * 0.5]), "projector of node 3 is none"),
+    (lambda: LinearMotion.in_planes([3], [0.0, 0, 0]), "normals of node 3 are"),
+    (lambda: LinearMotion.in_planes([3, 4], [[0.0, 0, 1]]), "expected .3,. or .2, 3."),
+    (lambda: LinearMotion.in_planes([-3], [0.0, 0, 1]), "numbers of nodes"),
+    (lambda: LinearMotion.tying([3], [4], np.ones((3, 3))), "rotation of node 3 is none"),
+    (lambda: LinearMotion.tying([3], [4, 5]), "1 tied nodes have 2 masters"),
+    (lambda: LinearMotion(nodes=[3]), "expected .1, 3, 3."),
+    (lambda: MESH.with_linear_motion(LinearMotion.keeping([125])), "names node 125, but the mesh has 125"),
+]
+
+
+@pytest.mark.parametrize(("make", "message"), ERRORS)
 def test_errors_name_the_node(make, message):
     with pytest.raises(MeshError, match=message):
         make()
@@ -169,20 +169,20 @@ def mesh():
     return gallery.make("cube", size=8)
 
 
-@pytest.mark.parametrize(
-    ("lengths", "message"),
-    [
-        (np.ones(3), "shape"),
-        (np.ones((2, 2)), "shape"),
-        (np.zeros((2, 3)), "is 0 at hex 0"),
-        ([[1, 1, 1], [1, np.nan, 1]], "is nan at hex 1, direction 1"),
-        ([[1, 1, np.inf]], "positive finite"),
-        ([[1, 1, -1]], "is -1 at hex 0, direction 2"),
-        ([[1, 1e300, 1]], r"is 1e\+300 at hex 0, direction 1 .*: expected positive .* from 1e-100 to 1e\+100"),
-        ([[1e-300, 1, 1]], "is 1e-300 at hex 0, direction 0"),
-        (np.ones((2, 3), bool), "type bool"),
-    ],
-)
+IMPOSSIBLE_LENGTHS = [
+    (np.ones(3), "shape"),
+    (np.ones((2, 2)), "shape"),
+    (np.zeros((2, 3)), "is 0 at hex 0"),
+    ([[1, 1, 1], [1, np.nan, 1]], "is nan at hex 1, direction 1"),
+    ([[1, 1, np.inf]], "positive finite"),
+    ([[1, 1, -1]], "is -1 at hex 0, direction 2"),
+    ([[1, 1e300, 1]], r"is 1e\+300 at hex 0, direction 1 .*: expected positive .* from 1e-100 to 1e\+100"),
+    ([[1e-300, 1, 1]], "is 1e-300 at hex 0, direction 0"),
+    (np.ones((2, 3), bool), "type bool"),
+]
+
+
+@pytest.mark.parametrize(("lengths", "message"), IMPOSSIBLE_LENGTHS)
 def test_impossible_lengths_are_named(lengths, message):
     with pytest.raises(MeshError, match=message):
         Target(lengths)

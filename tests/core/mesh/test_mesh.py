@@ -52,17 +52,17 @@ def test_with_points_shares_topology_and_leaves_the_original():
     assert moved.points[0, 0] == 1
 
 
-@pytest.mark.parametrize(
-    ("points", "hexes", "words"),
-    [
-        (UNIT_CUBE[:, :2], [range(8)], r"points have shape \(8, 2\): expected"),
-        (UNIT_CUBE, [range(7)], r"hexes have shape \(1, 7\): expected"),
-        (UNIT_CUBE, np.empty((0, 8), int), "at least one hex"),
-        (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, 8]], "hex 0 .* expected numbers from 0 to 7"),
-        (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, -1]], "hex 0 .* expected numbers from 0 to 7"),
-        (np.where(UNIT_CUBE > 0, np.nan, 0), [range(8)], "node 1 .* expected finite"),
-    ],
-)
+NO_MESHES = [
+    (UNIT_CUBE[:, :2], [range(8)], r"points have shape \(8, 2\): expected"),
+    (UNIT_CUBE, [range(7)], r"hexes have shape \(1, 7\): expected"),
+    (UNIT_CUBE, np.empty((0, 8), int), "at least one hex"),
+    (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, 8]], "hex 0 .* expected numbers from 0 to 7"),
+    (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, -1]], "hex 0 .* expected numbers from 0 to 7"),
+    (np.where(UNIT_CUBE > 0, np.nan, 0), [range(8)], "node 1 .* expected finite"),
+]
+
+
+@pytest.mark.parametrize(("points", "hexes", "words"), NO_MESHES)
 def test_what_is_no_mesh_is_said(points, hexes, words):
     with pytest.raises(MeshError, match=words):
         Mesh(points, hexes)
@@ -347,16 +347,16 @@ def of(**fields):
     return HALVES.replace(**fields).materials
 
 
-@pytest.mark.parametrize(
-    "sets",
-    [
-        TWO_MATERIALS,
-        {"all": np.arange(64), **TWO_MATERIALS},
-        {"some": LOW[:5], **TWO_MATERIALS, "empty": np.empty(0, int)},
-        {"across": np.array([0, 63]), "all": np.arange(64), "a few": HIGH[:2], **TWO_MATERIALS},
-        {"low": np.concatenate([LOW, LOW[:3]]), "high": HIGH},
-    ],
-)
+DIVIDING_SETS = [
+    TWO_MATERIALS,
+    {"all": np.arange(64), **TWO_MATERIALS},
+    {"some": LOW[:5], **TWO_MATERIALS, "empty": np.empty(0, int)},
+    {"across": np.array([0, 63]), "all": np.arange(64), "a few": HIGH[:2], **TWO_MATERIALS},
+    {"low": np.concatenate([LOW, LOW[:3]]), "high": HIGH},
+]
+
+
+@pytest.mark.parametrize("sets", DIVIDING_SETS)
 def test_sets_that_divide_the_mesh_are_materials_whatever_others_there_are(sets):
     found = of(hex_sets=sets)
     assert set(found.names) == {"low", "high"}
@@ -364,20 +364,20 @@ def test_sets_that_divide_the_mesh_are_materials_whatever_others_there_are(sets)
         np.testing.assert_array_equal(np.flatnonzero(found.of_hex == k), TWO_MATERIALS[name])
 
 
-@pytest.mark.parametrize(
-    "fields",
-    [
-        {},
-        {"hex_sets": {"low": LOW}},
-        {"hex_sets": {"all": np.arange(64)}},
-        {"hex_sets": {"low": LOW, "more": np.append(HIGH, LOW[0])}},
-        {"hex_data": {"pressure": np.arange(64) // 32, "id": np.arange(64)}},
-        {"hex_data": {"MaterialIds": np.ones(64)}},
-        {"hex_data": {"MaterialIds": np.linspace(0, 1, 64)}},
-        {"hex_data": {"region": np.arange(64)}},
-        {"hex_sets": TWO_MATERIALS, "field_data": {STRUCTURED_BLOCKS: ["low", "high"]}},
-    ],
-)
+WITHOUT_A_DIVISION = [
+    {},
+    {"hex_sets": {"low": LOW}},
+    {"hex_sets": {"all": np.arange(64)}},
+    {"hex_sets": {"low": LOW, "more": np.append(HIGH, LOW[0])}},
+    {"hex_data": {"pressure": np.arange(64) // 32, "id": np.arange(64)}},
+    {"hex_data": {"MaterialIds": np.ones(64)}},
+    {"hex_data": {"MaterialIds": np.linspace(0, 1, 64)}},
+    {"hex_data": {"region": np.arange(64)}},
+    {"hex_sets": TWO_MATERIALS, "field_data": {STRUCTURED_BLOCKS: ["low", "high"]}},
+]
+
+
+@pytest.mark.parametrize("fields", WITHOUT_A_DIVISION)
 def test_a_mesh_without_a_division_has_one_material_and_keeps_its_free_nodes(fields):
     mesh = HALVES.replace(**fields)
     assert mesh.materials is None

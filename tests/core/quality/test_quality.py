@@ -192,14 +192,14 @@ def test_a_hex_so_large_that_its_volume_is_no_number_has_the_worst():
 VALUES = np.array([-1.0, 0.2, 0.5, 0.8, 2.0, np.nan])
 
 
-@pytest.mark.parametrize(
-    ("better", "unacceptable"),
-    [
-        (1, [True, False, False, False, False, True]),
-        (-1, [False, False, False, False, True, True]),
-        (0, [True, False, False, False, True, True]),
-    ],
-)
+RANGES = [
+    (1, [True, False, False, False, False, True]),
+    (-1, [False, False, False, False, True, True]),
+    (0, [True, False, False, False, True, True]),
+]
+
+
+@pytest.mark.parametrize(("better", "unacceptable"), RANGES)
 def test_what_is_worse_than_the_acceptable_range_is_unacceptable_and_its_ends_are_not(better, unacceptable):
     metric = dataclasses.replace(METRICS["scaled-jacobian"], acceptable=(0.2, 0.8), better=better)
     assert metric.unacceptable(VALUES).tolist() == unacceptable

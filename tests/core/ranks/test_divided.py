@@ -166,23 +166,23 @@ def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(tmp_path):
     assert not (tmp_path / "out.pvtu").exists()
 
 
+REASONS = [
+    (gallery.make("layered", size=2000), "it may have boundary layers"),
+    (gallery.make("cube", size=64).replace(hex_sets={"half": np.arange(32)}), "it has materials or sets of hexes"),
+    (
+        gallery.make("cube", size=64).replace(cells=(Cells("tetra", np.array([[0, 1, 5, 25]], dtype=np.int32)),)),
+        "it has cells other than hexes",
+    ),
+    (
+        gallery.make("cube", size=64).replace(hex_data={"vtkGhostType": np.arange(64, dtype=np.uint8) % 2}),
+        "it has ghost cells",
+    ),
+]
+
+
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("mesh", "reason"),
-    [
-        (gallery.make("layered", size=2000), "it may have boundary layers"),
-        (gallery.make("cube", size=64).replace(hex_sets={"half": np.arange(32)}), "it has materials or sets of hexes"),
-        (
-            gallery.make("cube", size=64).replace(cells=(Cells("tetra", np.array([[0, 1, 5, 25]], dtype=np.int32)),)),
-            "it has cells other than hexes",
-        ),
-        (
-            gallery.make("cube", size=64).replace(hex_data={"vtkGhostType": np.arange(64, dtype=np.uint8) % 2}),
-            "it has ghost cells",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("mesh", "reason"), REASONS)
 def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
     write(tmp_path / "a.vtu", mesh)
     run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "2")

@@ -122,18 +122,18 @@ def test_targets_are_divided_too(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "shape", 1e-7, "--target", "given-shape")
 
 
+IMPOSSIBLE_ON_RANKS = [
+    (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
+    (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
+    (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
+    (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),
+    (["--checkpoint", "0"], "--checkpoint 0 is out of bounds"),
+]
+
+
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
-        (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
-        (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
-        (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),
-        (["--checkpoint", "0"], "--checkpoint 0 is out of bounds"),
-    ],
-)
+@pytest.mark.parametrize(("words", "expected"), IMPOSSIBLE_ON_RANKS)
 def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_path, words, expected):
     run = on_ranks(2, tangled, "-o", tmp_path / "out.vtu", *words)
     assert run.returncode != 0

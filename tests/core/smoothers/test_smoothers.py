@@ -157,15 +157,14 @@ def test_sufficient_quality_ends_with_what_getme_reached():
     assert "sizes" not in result.message
 
 
-@pytest.mark.parametrize(
-    ("mesh", "getme_iterations", "said"),
-    [
-        (make("five-side", size=150), 50, "similar sizes (ratio 2), no inverted hexes: Global Newton-Raphson"),
-        (make("five-side", size=150, taper=0.05), 50, "different sizes (ratio 3.4), no inverted hexes: Local"),
-        (make("five-side", size=150, scramble=1.5, seed=1), 0, "inverted hexes: Local steepest descent"),
-    ],
-    ids=["similar", "different", "inverted"],
-)
+CHOICES = [
+    (make("five-side", size=150), 50, "similar sizes (ratio 2), no inverted hexes: Global Newton-Raphson"),
+    (make("five-side", size=150, taper=0.05), 50, "different sizes (ratio 3.4), no inverted hexes: Local"),
+    (make("five-side", size=150, scramble=1.5, seed=1), 0, "inverted hexes: Local steepest descent"),
+]
+
+
+@pytest.mark.parametrize(("mesh", "getme_iterations", "said"), CHOICES, ids=["similar", "different", "inverted"])
 def test_what_it_chooses_and_why_is_in_the_message(mesh, getme_iterations, said):
     method = General(getme_iterations=getme_iterations)
     result = smooth(mesh, method, StoppingCriteria(max_iterations=1000))

@@ -3,11 +3,11 @@
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox, QPushButton
+from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox
 
 from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
-from tests.app.driving import open_and_wait, type_text
+from tests.app.driving import button, open_and_wait, type_text
 
 
 @pytest.fixture
@@ -33,10 +33,6 @@ def dialog(window, saved, qtbot):
 
 def names(dialog):
     return [dialog.list.item(row).text() for row in range(dialog.list.count())]
-
-
-def button(dialog, text):
-    return next(one for one in dialog.findChildren(QPushButton) if one.text() == text)
 
 
 def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):

@@ -30,17 +30,17 @@ def test_a_run_becomes_an_animation(mesh_file, tmp_path, run_command):
         assert (film.n_frames, film.size) == (4, (320, 240))
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
-        (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
-        (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
-        (["-o", "run.gif", "--arrows", "some"], "expected sight or all"),
-        (["-o", "run.gif", "--since", "ever"], "expected run or iteration"),
-        (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
-    ],
-)
+WRONG_OPTIONS = [
+    (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
+    (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
+    (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
+    (["-o", "run.gif", "--arrows", "some"], "expected sight or all"),
+    (["-o", "run.gif", "--since", "ever"], "expected run or iteration"),
+    (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), WRONG_OPTIONS)
 def test_wrong_options_are_reported_before_the_run(mesh_file, tmp_path, monkeypatch, capsys, options, message):
     monkeypatch.chdir(tmp_path)
     assert main(["film", str(mesh_file), *options]) != 0

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QTableWidget
 
 from hexmend import LocalSteepestDescent, StoppingCriteria, io
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, brought, heard_from, key, press, type_text
+from tests.app.driving import LEFT, brought, button, heard_from, key, press, type_text
 from tests.app.hosting import action
 from tests.core.grids import grid, scrambled
 
@@ -18,10 +18,6 @@ from tests.core.grids import grid, scrambled
 @pytest.fixture
 def panel(window, qtbot):
     return brought(window, qtbot, "tags")
-
-
-def button(panel, text):
-    return next(b for b in panel.findChildren(QPushButton) if b.text() == text)
 
 
 def listed(panel):
@@ -126,16 +122,16 @@ def said(tag_panel):
     return [label.text() for label in tag_panel.findChildren(QLabel) if label.isVisible()]
 
 
+REFUSED_TAGS = [
+    (False, False, "bad", "No hex selected"),
+    (True, True, "bad", "during a run"),
+    (False, True, "bad", "during a run"),
+    (True, False, " ", "Enter a tag name"),
+]
+
+
 @pytest.mark.parametrize("rows", [[], [TagRow("one", 3, 0, 0.5)]])
-@pytest.mark.parametrize(
-    ("selected", "busy", "name", "word"),
-    [
-        (False, False, "bad", "No hex selected"),
-        (True, True, "bad", "during a run"),
-        (False, True, "bad", "during a run"),
-        (True, False, " ", "Enter a tag name"),
-    ],
-)
+@pytest.mark.parametrize(("selected", "busy", "name", "word"), REFUSED_TAGS)
 def test_a_refused_tag_has_a_reason(tag_panel, refused, rows, selected, busy, name, word):
     tag_panel.set_tags(rows)
     tag_panel.findChild(QComboBox).setEditText(name)

@@ -78,17 +78,17 @@ CORNER = (Plane((1, 0, 0), point=(1.5, 0, 0)), Plane((0, 1, 0), point=(0, 1.25, 
 BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
 
 
-@pytest.mark.parametrize(
-    ("clip", "skin_area", "section_area"),
-    [
-        (Cut(CORNER, style=CutStyle.SMOOTH), 1.25 * 2 + 1.5 * 2 + 2 * 1.5 * 1.25, (1.25 + 1.5) * 2),
-        (Cut(CORNER, style=CutStyle.SMOOTH, notch=True), 52 - 2.5 * 2 - 1.75 * 2 - 2 * 2.5 * 1.75, (2.5 + 1.75) * 2),
-        (Cut(box=Box(*BOX), style=CutStyle.SMOOTH), 0, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
-        (Cut(box=Box(*BOX), style=CutStyle.SMOOTH, notch=True), 52, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
-        (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
-        (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
-    ],
-)
+AREAS = [
+    (Cut(CORNER, style=CutStyle.SMOOTH), 1.25 * 2 + 1.5 * 2 + 2 * 1.5 * 1.25, (1.25 + 1.5) * 2),
+    (Cut(CORNER, style=CutStyle.SMOOTH, notch=True), 52 - 2.5 * 2 - 1.75 * 2 - 2 * 2.5 * 1.75, (2.5 + 1.75) * 2),
+    (Cut(box=Box(*BOX), style=CutStyle.SMOOTH), 0, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
+    (Cut(box=Box(*BOX), style=CutStyle.SMOOTH, notch=True), 52, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
+    (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
+    (Cut(box=Box((2, 0, 0), (4, 3, 2)), style=CutStyle.SMOOTH, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
+]
+
+
+@pytest.mark.parametrize(("clip", "skin_area", "section_area"), AREAS)
 def test_several_planes_leave_the_expected_areas(clip, skin_area, section_area):
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)

@@ -90,16 +90,16 @@ def test_nodes_of_locked_hexes_are_marked(draw):
     assert count(draw.viewport.pixels(), LOCKED) == 0
 
 
-@pytest.mark.parametrize(
-    "cut",
-    [
-        BELOW,
-        Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
-        Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
-        Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
-        Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
-    ],
-)
+CUTS = [
+    BELOW,
+    Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
+    Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
+    Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
+    Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
+]
+
+
+@pytest.mark.parametrize("cut", CUTS)
 def test_only_shown_hexes_have_marks(draw, cut):
     wanted = Structure.of("irregular", "sharp", "fixed")
     draw(FIVE, wanted, cut=cut)

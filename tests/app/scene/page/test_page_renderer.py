@@ -30,17 +30,17 @@ def pixels(sheet):
     return np.asarray(sheet.image()).astype(int)
 
 
-@pytest.mark.parametrize(
-    ("page", "size"),
-    [
-        (Page(85, 60), (1004, 709)),
-        (Page(85, 60, dpi=127), (425, 300)),
-        (Page(pixels=(333, 217)), (333, 217)),
-        (Page(pixels=(400, 300), dpi=97.3), (400, 300)),
-        (Page(width=80, dpi=100), (315, 197)),
-        (Page(pixels=(17, 16)), (17, 16)),
-    ],
-)
+SIZES = [
+    (Page(85, 60), (1004, 709)),
+    (Page(85, 60, dpi=127), (425, 300)),
+    (Page(pixels=(333, 217)), (333, 217)),
+    (Page(pixels=(400, 300), dpi=97.3), (400, 300)),
+    (Page(width=80, dpi=100), (315, 197)),
+    (Page(pixels=(17, 16)), (17, 16)),
+]
+
+
+@pytest.mark.parametrize(("page", "size"), SIZES)
 def test_a_page_has_exactly_the_pixels_asked_for(tmp_path, page, size):
     sheet = drawn(grid(2), page=page)
     assert sheet.size == page.size == size

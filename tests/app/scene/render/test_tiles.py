@@ -26,15 +26,15 @@ def images(scene, **how):
     return [np.asarray(image).astype(int) for image in found]
 
 
+PICTURES = [
+    (1, "transparent", {"structure": Structure.of("sharp", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))}),
+    (3, "white", {"camera": Camera((0.3, -1.0, 0.2)), "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH)}),
+    (1, "white", {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)}),
+]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("supersampling", "background", "tables"),
-    [
-        (1, "transparent", {"structure": Structure.of("sharp", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))}),
-        (3, "white", {"camera": Camera((0.3, -1.0, 0.2)), "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH)}),
-        (1, "white", {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)}),
-    ],
-)
+@pytest.mark.parametrize(("supersampling", "background", "tables"), PICTURES)
 def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, supersampling):
     scene = Scene(page=Page(pixels=(601, 400), supersampling=supersampling, background=background), **tables)
     (whole,), (parts,) = (images(scene, **how) for how in ({}, {"at_once": FEW}))

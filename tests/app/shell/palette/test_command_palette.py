@@ -88,20 +88,20 @@ ENTRIES = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("text", "names"),
-    [
-        ("undo", ["Undo", "Reset", "Redo"]),
-        ("mend", ["Mend", "Recommended smoothing"]),
-        ("lap", ["Smart Laplacian"]),
-        ("jac colour", ["Scaled Jacobian"]),
-        ("run", ["Run or pause", "Tolerance"]),
-        ("as mesh", ["Save mesh as…", "Undo"]),
-        ("method", ["Mend", "Smart Laplacian", "Run or pause"]),
-        ("  UNDO ", ["Undo", "Reset", "Redo"]),
-        ("nonsense", []),
-    ],
-)
+RANKED = [
+    ("undo", ["Undo", "Reset", "Redo"]),
+    ("mend", ["Mend", "Recommended smoothing"]),
+    ("lap", ["Smart Laplacian"]),
+    ("jac colour", ["Scaled Jacobian"]),
+    ("run", ["Run or pause", "Tolerance"]),
+    ("as mesh", ["Save mesh as…", "Undo"]),
+    ("method", ["Mend", "Smart Laplacian", "Run or pause"]),
+    ("  UNDO ", ["Undo", "Reset", "Redo"]),
+    ("nonsense", []),
+]
+
+
+@pytest.mark.parametrize(("text", "names"), RANKED)
 def test_matches_in_names_rank_before_matches_in_help(text, names):
     assert [entry.name for entry in ranked(ENTRIES, text)] == names
 

@@ -142,15 +142,15 @@ def test_a_soft_link_inside_the_file_is_followed(suffix, tmp_path):
     np.testing.assert_array_equal(linked.points, plain.points)
 
 
-@pytest.mark.parametrize(
-    ("suffix", "words"),
-    [
-        (".med", "holds no mesh"),
-        (".vtkhdf", "no group VTKHDF"),
-        (".cgns", "no CGNSBase_t"),
-        (".exo", "no dimension num_nodes"),
-    ],
-)
+OF_ANOTHER_FORMAT = [
+    (".med", "holds no mesh"),
+    (".vtkhdf", "no group VTKHDF"),
+    (".cgns", "no CGNSBase_t"),
+    (".exo", "no dimension num_nodes"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "words"), OF_ANOTHER_FORMAT)
 def test_hdf5_of_another_format_is_not_called_damaged(suffix, words, tmp_path):
     with h5py.File(tmp_path / f"a{suffix}", "w") as file:
         file["numbers"] = [1, 2, 3]

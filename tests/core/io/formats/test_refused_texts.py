@@ -133,19 +133,14 @@ WHOLE = {
 }  # fmt: skip
 
 
-def check(path, text, words):
-    path.write_text(text)
-    assert_refused(path, words)
-
-
 @pytest.mark.parametrize(
     ("name", "old", "new", "words"), [(name, *row) for name, rows in SPOILT.items() for row in rows]
 )
 def test_what_is_spoilt_in_a_sound_text_is_named(name, old, new, words, tmp_path):
     assert old in SOUND[name]
-    check(tmp_path / name, SOUND[name].replace(old, new), words)
+    assert_refused(tmp_path / name, words, SOUND[name].replace(old, new))
 
 
 @pytest.mark.parametrize(("name", "text", "words"), [(name, *row) for name, rows in WHOLE.items() for row in rows])
 def test_what_is_wrong_with_a_text_is_named(name, text, words, tmp_path):
-    check(tmp_path / name, text, words)
+    assert_refused(tmp_path / name, words, text)

@@ -199,18 +199,18 @@ def test_a_real_file_has_its_faces_on_the_boundary(real_mesh):
     assert {tuple(row) for row in np.sort(named, axis=1).tolist()} == outside
 
 
-@pytest.mark.parametrize(
-    ("how", "words"),
-    [
-        ("sizes", "has the sizes"),
-        ("coordinates", "expected numbers"),
-        ("huge", r"holds float64 \(8,\): expected numbers \(2147483647,\)"),
-        ("nodes", "uses the nodes 1 to 99: expected 1 to 8"),
-        ("count", "has 7 elements of 8 nodes, and 8 nodes"),
-        ("polar", "Write it with Cartesian coordinates"),
-        ("surface", "no zone of three dimensions"),
-    ],
-)
+ERRORS = [
+    ("sizes", "has the sizes"),
+    ("coordinates", "expected numbers"),
+    ("huge", r"holds float64 \(8,\): expected numbers \(2147483647,\)"),
+    ("nodes", "uses the nodes 1 to 99: expected 1 to 8"),
+    ("count", "has 7 elements of 8 nodes, and 8 nodes"),
+    ("polar", "Write it with Cartesian coordinates"),
+    ("surface", "no zone of three dimensions"),
+]
+
+
+@pytest.mark.parametrize(("how", "words"), ERRORS)
 def test_errors_name_the_problem(how, words, tmp_path):
     with cgns(tmp_path / "bad.cgns", (2, 3) if how == "surface" else (3, 3)) as base:
         zone = unstructured(base, "z", UNIT_CUBE[: 4 if how == "coordinates" else 8], 1)
@@ -307,13 +307,13 @@ def wrong_node(faces, cells):
     faces[0][0] = 99
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (wrong_face, "section 'Cells' refers to faces that do not exist"),
-        (wrong_node, "faces use the nodes 1 to 99: expected 1 to 8"),
-    ],
-)
+ERRORS_IN_POLYHEDRA = [
+    (wrong_face, "section 'Cells' refers to faces that do not exist"),
+    (wrong_node, "faces use the nodes 1 to 99: expected 1 to 8"),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), ERRORS_IN_POLYHEDRA)
 def test_errors_in_polyhedra_are_named(change, words, tmp_path):
     mesh = grid(1)
     with pytest.raises(FileError, match=words):

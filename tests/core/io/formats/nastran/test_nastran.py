@@ -53,23 +53,19 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
     assert "some of their mid-nodes" in mesh.notes[0]
 
 
-@pytest.mark.parametrize(
-    ("sets", "members", "said"),
-    [
-        ({"property 1": [0]}, {"property 1": [0], "property 2": [1]}, []),
-        ({"property 2": [1]}, {"property 1": [0], "property 2": [1]}, []),
-        (
-            {"property 2": [0, 1], "property 3": [0]},
-            {"property 2": [1], "property 3": [0]},
-            ["element sets that overlap (property 2)"],
-        ),
-        (
-            {"property 0": [0], "property 007": [1]},
-            {"property 1": [0, 1]},
-            ["element sets (property 0, property 007)"],
-        ),
-    ],
-)
+PROPERTIES = [
+    ({"property 1": [0]}, {"property 1": [0], "property 2": [1]}, []),
+    ({"property 2": [1]}, {"property 1": [0], "property 2": [1]}, []),
+    (
+        {"property 2": [0, 1], "property 3": [0]},
+        {"property 2": [1], "property 3": [0]},
+        ["element sets that overlap (property 2)"],
+    ),
+    ({"property 0": [0], "property 007": [1]}, {"property 1": [0, 1]}, ["element sets (property 0, property 007)"]),
+]
+
+
+@pytest.mark.parametrize(("sets", "members", "said"), PROPERTIES)
 def test_elements_keep_their_properties_or_the_loss_is_reported(sets, members, said, tmp_path):
     mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
     assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
@@ -158,14 +154,14 @@ def test_hexes_with_some_mid_nodes_are_distinguished_from_those_with_all(tmp_pat
     assert any("80 elements have some of their mid-nodes only" in note for note in back.notes)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("GRID*   100 ", "GRID*   1x0 ", "GRID in line 65 holds '1x0': expected a whole number"),
-        ("GRID*   100             " + " " * 16, "GRID*   100             2" + " " * 15, "GRID in line 65 is in the"),
-        ("CHEXA   1000    ", "CHEXA   -1-0    ", "CHEXA in line 253 holds '-1-0': expected a whole number"),
-    ],
-)
+ERRORS = [
+    ("GRID*   100 ", "GRID*   1x0 ", "GRID in line 65 holds '1x0': expected a whole number"),
+    ("GRID*   100             " + " " * 16, "GRID*   100             2" + " " * 15, "GRID in line 65 is in the"),
+    ("CHEXA   1000    ", "CHEXA   -1-0    ", "CHEXA in line 253 holds '-1-0': expected a whole number"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), ERRORS)
 def test_errors_name_the_line(old, new, words, text, tmp_path):
     assert old in text
     with pytest.raises(FileError) as error:

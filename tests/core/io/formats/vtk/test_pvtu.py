@@ -51,18 +51,18 @@ def test_pieces_are_merged(numbered, ghosts, tmp_path):
     assert any("2 ghost cells" in note for note in back.notes) is ghosts
 
 
-@pytest.mark.parametrize(
-    ("pieces", "words"),
-    [
-        ("", "lists no pieces"),
-        ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
-        ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "lists a piece twice"),
-        ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
-        ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
-        ('<Piece Source="."/>', "is a folder"),
-        ('<Piece Source="whole.pvtu"/>', r"its piece whole\.pvtu: is a VTKFile of the type 'PUnstructuredGrid'"),
-    ],
-)
+WRONG_PIECES = [
+    ("", "lists no pieces"),
+    ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
+    ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "lists a piece twice"),
+    ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
+    ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
+    ('<Piece Source="."/>', "is a folder"),
+    ('<Piece Source="whole.pvtu"/>', r"its piece whole\.pvtu: is a VTKFile of the type 'PUnstructuredGrid'"),
+]
+
+
+@pytest.mark.parametrize(("pieces", "words"), WRONG_PIECES)
 def test_what_is_wrong_is_named(pieces, words, tmp_path):
     halves(tmp_path)
     with pytest.raises(FileError, match=words):
