@@ -1,7 +1,5 @@
 """Debian's browser, with its own folder for what it leaves behind."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What all tests share."""
 
-from __future__ import annotations
-
 import gc
 import os
 import signal
@@ -59,6 +57,29 @@ def terminal() -> Iterator[None]:
         for name in ("COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR"):
             patch.delenv(name, raising=False)
         yield
+
+
+@pytest.fixture
+def run_command(capsys) -> Callable[..., object]:
+    """Run a command of `hexmend` in this process, which ends with `status`; what it printed since the last: `out` and `err`."""
+    from hexmend.cli.main import main
+
+    def run(*words: object, status: int = 0):
+        assert main([str(word) for word in words]) == status
+        return capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def complaint(run_command) -> Callable[..., str]:
+    """Run a command that is refused; the one line that it says of that."""
+
+    def run(*words: object, status: int = 2) -> str:
+        (line,) = run_command(*words, status=status).err.splitlines()
+        return line
+
+    return run
 
 
 @pytest.fixture(scope="session")

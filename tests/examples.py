@@ -5,11 +5,12 @@
 
 import os
 import re
-import subprocess
 import sys
 import types
 from importlib.util import find_spec
 from pathlib import Path
+
+from tests.programs import run_python
 
 ROOT = Path(__file__).resolve().parents[1]
 #: The folder in which pages show files of the reader.
@@ -45,11 +46,8 @@ def example(title):
 
 def run_page(page, folder):
     """Run the blocks of a page in a process of its own, beside the meshes that they read; what it printed."""
-    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "tests.examples", str(page)],
-        cwd=folder, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True, encoding="utf-8",
-    )  # fmt: skip
+    words = ["-W", "error", "-m", "tests.examples"]
+    done = run_python(*words, page, paths=[ROOT], cwd=folder, encoding="utf-8")
     assert done.returncode == 0, f"{page.name}: {done.stderr}"
     return done.stdout
 

@@ -1,7 +1,5 @@
 """What no test leaves behind: threads, temporary files, windows. Each guard is a context that fails when it ends."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

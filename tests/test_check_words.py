@@ -1,11 +1,9 @@
 """The check of words in make lint finds a word that is out, in Python and in C++, and nothing else."""
 
-import subprocess
-import sys
-
 import pytest
 
 from tests.examples import ROOT
+from tests.programs import run_python
 
 PYTHON = '''def put_back(points): pass
 class Bedroom: off_diagonal = {"told": 1}
@@ -25,6 +23,6 @@ int x = index("told");  // way
 def test_words_that_are_out_are_found(tmp_path, suffix, source, lines):
     path = tmp_path / f"sample.{suffix}"
     path.write_text(source)
-    run = subprocess.run([sys.executable, ROOT / "scripts/check_words.py", path], capture_output=True, text=True)
+    run = run_python(ROOT / "scripts/check_words.py", path)
     assert run.returncode == 1
     assert "".join(sorted(line.removeprefix(f"{path}:")[0] for line in run.stderr.splitlines())) == lines

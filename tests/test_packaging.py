@@ -21,6 +21,8 @@ from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.io import FORMATS
 from hexmend_app.formats.session import SUFFIX
+from scripts.check_layers import CORE, SEES_THE_FACE, WINDOWS, broken, circle, import_graph
+from tests.programs import run_python
 
 ROOT = Path(__file__).resolve().parents[1]
 DESKTOP = ROOT / "desktop"
@@ -174,3 +176,51 @@ def test_every_colour_map_that_a_wheel_contains_is_listed():
     notices = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
     with np.load(ROOT / "resources/colour_maps.npz") as maps:
         assert all(re.search(rf"\b{name}\b", notices) for name in maps.files)
+
+
+# Layers: the core needs no window, and the check of make lint sees what breaks them.
+
+
+def package(folder: Path, **files: str) -> Path:
+    """Write the modules of a package `hexmend`, with __ for / in their names."""
+    for name, text in files.items():
+        path = folder / "hexmend" / f"{name.replace('__', '/')}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder / "hexmend"
+
+
+@pytest.mark.parametrize("line", [
+    "from hexmend.mesh import upper",
+    "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from hexmend.mesh.upper import X",
+    "import importlib\n\ndef late():\n    importlib.import_module('hexmend.mesh.upper')",
+])  # fmt: skip
+def test_a_circle_is_named(tmp_path, line):
+    found = circle(import_graph(package(tmp_path, mesh__lower=line, mesh__upper="import hexmend.mesh.lower")))
+    assert found.split(" -> ").count("hexmend.mesh.upper") > 0
+    assert circle(import_graph(package(tmp_path, mesh__lower="import os"))) == ""
+
+
+@pytest.mark.parametrize(("module", "line", "complaint"), [
+    ("mesh__mesh", "from hexmend.run import smooth", "not below mesh"),
+    ("mesh__mesh", "import importlib\nimportlib.import_module('hexmend.quality')", "not below mesh"),
+    ("run__recipe", "from hexmend import Mesh", "public face"),
+    ("run__recipe", "from .recipe_files import read_recipe", "absolute name"),
+    ("magic", "import os", "has no layer"),
+    ("cli__info", "from hexmend import read", None),
+])  # fmt: skip
+def test_a_broken_floor_is_seen(tmp_path, module, line, complaint):
+    rows = broken(package(tmp_path, **{module: line}), CORE, SEES_THE_FACE)
+    assert [complaint in row for row in rows] == ([True] if complaint else [])
+
+
+def test_importing_all_of_the_core_brings_no_window_along():
+    program = (
+        "import importlib, pkgutil, sys, hexmend\n"
+        "for one in pkgutil.walk_packages(hexmend.__path__, 'hexmend.'):\n"
+        "    if not one.name.endswith('__main__'):\n"
+        "        importlib.import_module(one.name)\n"
+        f"print(sorted({{name.split('.')[0] for name in sys.modules}} & set({WINDOWS!r})))\n"
+    )
+    done = run_python("-c", program, check=True)
+    assert done.stdout == "[]\n"

@@ -1,6 +1,7 @@
 """Fixtures of all tests of the app: the application, mesh files, and windows with an open mesh."""
 
 import gc
+import threading
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import partialmethod
@@ -51,6 +52,14 @@ class PatientBot(QtBot):
     waitExposed = partialmethod(QtBot.waitExposed, timeout=PATIENCE)
     waitSignal = partialmethod(QtBot.waitSignal, timeout=PATIENCE)
     waitUntil = partialmethod(QtBot.waitUntil, timeout=PATIENCE)
+
+
+@pytest.fixture
+def gate():
+    """Event that threads wait for; set at the end, so that a failing test leaves no thread."""
+    gate = threading.Event()
+    yield gate
+    gate.set()
 
 
 @pytest.fixture

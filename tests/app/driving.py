@@ -8,10 +8,7 @@ from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QLabel, QWidget
 
-from hexmend import io
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Stage, StoppingCriteria, io
 from hexmend_app.state.run.run_controller import Phase
 
 LEFT = Qt.MouseButton.LeftButton
@@ -67,6 +64,12 @@ def click(window, text):
     )
 
 
+def click_until(window, qtbot, text, awaited):
+    """Press a button of the smoothing panel, and wait for a phase of the run."""
+    click(window, text)
+    qtbot.waitUntil(phase(window, awaited))
+
+
 def press(button: QAbstractButton):
     """Press an enabled button and refresh the window."""
     button.window().refresh()
@@ -78,6 +81,21 @@ def press(button: QAbstractButton):
 def button(parent: QWidget, text: str) -> QAbstractButton:
     """Return the visible button with a text."""
     return next(one for one in parent.findChildren(QAbstractButton) if one.text() == text and one.isVisible())
+
+
+def type_text(line, text: str, enter: bool = False):
+    """Type over the text of a line."""
+    line.selectAll()
+    QTest.keyClicks(line, text)
+    if enter:
+        QTest.keyClick(line, Qt.Key.Key_Return)
+
+
+def heard_from(signal) -> list:
+    """Return a list of what a signal sends from now on."""
+    heard = []
+    signal.connect(heard.append)
+    return heard
 
 
 def texts(parent: QWidget) -> list[str]:

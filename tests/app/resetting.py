@@ -8,9 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractItemView, QApplication, QScrollBar
 
 from benchmarks.window.windows import end_run
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
+from hexmend import MotionRules, Stage, StoppingCriteria
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.state.mesh.history import LIMIT
 from hexmend_app.state.run.run_settings import Pace

@@ -1,16 +1,21 @@
 """Classes of the app do not hide methods of their Qt base classes."""
 
 import ast
+import doctest
 import importlib
 import inspect
 import pkgutil
 import textwrap
 from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QCoreApplication, QObject, QTranslator, Signal
 
 import hexmend_app
+from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import counted
 
 #: Modules that start the program when they are imported.
 _PROGRAMS = {"hexmend_app.__main__"}
@@ -53,3 +58,46 @@ def test_no_class_hides_a_method_of_its_qt_class(qapp):
     assert {
         f"{kind.__module__}.{kind.__qualname__}": names for kind in classes if (names := hidden_methods(kind))
     } == {}
+
+
+# Texts of the window in another language, by Qt's translators.
+
+
+GERMAN = {"Flip": "Umkehren", "{count:,} hidden": "{count:,} versteckt", "nodes": "Knoten"}
+
+
+class German(QTranslator):
+    """Translation as of a file of Qt Linguist, whose context of functions outside classes is empty."""
+
+    def translate(self, context, text, comment=None, number=-1):
+        return GERMAN.get(text) if context == "" else None
+
+
+@pytest.fixture
+def german(qapp):
+    translator = German()
+    QCoreApplication.installTranslator(translator)
+    yield
+    QCoreApplication.removeTranslator(translator)
+
+
+def test_texts_are_those_of_the_translation_and_else_english(german):
+    assert [tr("Flip"), tr("{count:,} hidden", count=1234), tr("Stop")] == ["Umkehren", "1,234 versteckt", "Stop"]
+    assert [counted(2, "node"), counted(1, "node")] == ["2 Knoten", "1 node"]
+
+
+# Examples in docstrings of the app.
+
+
+APP = Path(hexmend_app.__file__).parent
+MODULES = [
+    ".".join(("hexmend_app", *path.relative_to(APP).with_suffix("").parts))
+    for path in sorted(APP.rglob("*.py"))
+    if ">>>" in path.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_print_their_output(name):
+    result = doctest.testmod(import_module(name), optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+    assert result.failed == 0

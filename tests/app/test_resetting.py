@@ -7,11 +7,10 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox
 
 from hexmend_app.formats.session.archive import read_archive
 from hexmend_app.formats.session.session_file import VERSION
-from hexmend_app.picture import Camera
-from hexmend_app.picture.cut import Cut
+from hexmend_app.picture import Camera, Cut
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session import session_data
-from tests.app.driving import click, phase
+from tests.app.driving import click_until
 
 pytestmark = pytest.mark.slow
 
@@ -48,10 +47,8 @@ def live(window, qtbot):
     session = window.session
     middle = tuple(session.document.now.mesh.points.mean(axis=0))
     for _ in range(2):
-        click(window, "Step")
-        qtbot.waitUntil(phase(window, Phase.PAUSED))
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+        click_until(window, qtbot, "Step", Phase.PAUSED)
+    click_until(window, qtbot, "Stop", Phase.FINISHED)
     session.commands.tag("bad", [7])
     session.commands.pin(int(np.flatnonzero(session.document.now.mesh.free)[50]), True)
     session.selection.choose(7)

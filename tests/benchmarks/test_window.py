@@ -1,7 +1,5 @@
 """Start of the program: the order in which things are shown, and the modules loaded by then."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks.window.start import MOMENTS, measure_start

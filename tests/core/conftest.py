@@ -1,15 +1,12 @@
 """What tests of the core share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from hexmend import Mesh, read
 from hexmend.gallery import GALLERY, make
-from hexmend.io import read
-from hexmend.mesh.mesh import Mesh
 
 
 @pytest.fixture(scope="session")

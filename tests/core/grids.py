@@ -1,7 +1,5 @@
 """Small meshes for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
@@ -26,6 +24,20 @@ def scrambled(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     """Displace free nodes at random by up to `amplitude` in each direction."""
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape)
     return mesh.with_points(mesh.points + shift * mesh.free[:, None])
+
+
+def displaced(mesh: Mesh, nodes: object, by: object) -> Mesh:
+    """Move some nodes of a mesh by a vector, or by one each."""
+    points = mesh.points.copy()
+    points[nodes] += by
+    return mesh.with_points(points)
+
+
+def placed(mesh: Mesh, nodes: object, at: object) -> Mesh:
+    """Put some nodes of a mesh elsewhere."""
+    points = mesh.points.copy()
+    points[nodes] = at
+    return mesh.with_points(points)
 
 
 def invalid_inside() -> Mesh:

@@ -3,8 +3,6 @@
 Runs as a program of its own, since what it looks for would end the process: `python -m tests.core.hostile`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

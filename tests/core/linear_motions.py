@@ -1,11 +1,8 @@
 """Linear motions of small meshes, for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
-from hexmend.mesh.linear_motion import LinearMotion
-from hexmend.mesh.mesh import Mesh
+from hexmend import LinearMotion, Mesh
 from tests.core.grids import grid
 
 

@@ -1,7 +1,5 @@
 """Uniform refinements of meshes, numbered at random."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

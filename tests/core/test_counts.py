@@ -5,13 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from hexmend.advice import advise
+from hexmend import Mesh, advise, measure, smooth
 from hexmend.boundary import SurfaceChange
 from hexmend.doctor import examine
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
-from hexmend.quality import measure
-from hexmend.run import smooth
 from hexmend.run.messages import name_invalid
 from hexmend.smoothers.mend.messages import freed_message, omission_message
 from tests.core.grids import grid

@@ -3,19 +3,18 @@
 import json
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import hexmend
-from hexmend import gallery, io
+from hexmend import Mesh, gallery, io
+from hexmend.hooks import hook
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.examples import ROOT, example
+from tests.programs import run_python
 
 EXAMPLE = example("A method")
 #: Heading of the example, folder in the core, entry-point group, entry.
@@ -37,9 +36,7 @@ sys.exit(status)
 
 def python(paths, program, *words, **options):
     """Run a Python program with folders before the others of the path."""
-    path = os.pathsep.join(filter(None, [*map(str, paths), os.environ.get("PYTHONPATH", "")]))
-    command = [sys.executable, "-c", program, *words]
-    return subprocess.run(command, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True, **options)
+    return run_python("-c", program, *words, paths=paths, **options)
 
 
 def commands_in(path):
@@ -265,3 +262,26 @@ def test_an_object_of_another_class_is_left_out_with_a_line(installed, tmp_path,
     done = installed("odd = my_module:x", group, my_module="x = 3")([word.format(mesh=mesh) for word in words])
     kind = {"metrics": "metric", "formats": "format", "gallery": "gallery mesh"}[group]
     assert f"the {kind} odd of my-methods is left out: TypeError: 3 is not a hexmend." in done.stderr
+
+
+# Hooks: functions of higher layers that classes of lower ones call.
+
+
+@pytest.mark.parametrize(
+    "name", ["fixed_sets", "html", "plot", "quality", "region", "summary", "with_rules", "worst_hexes"]
+)
+def test_each_hook_has_a_provider(name):
+    assert callable(hook(name))
+
+
+def test_a_mesh_measures_itself_before_quality_is_imported():
+    program = """
+import sys
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.hexahedron import UNIT_CUBE
+assert "hexmend.quality" not in sys.modules
+mesh = Mesh(UNIT_CUBE, [range(8)])
+print(mesh.quality("q")[0], mesh.worst(1)[0])
+"""
+    done = run_python("-c", program)
+    assert (done.stdout, done.stderr) == ("1.0 0\n", "")

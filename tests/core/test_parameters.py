@@ -81,20 +81,20 @@ def test_an_array_is_no_value_of_a_parameter(name, value):
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ({"rho": "2"}, "rho = 2 is out of range: expected a number from 0 to 1"),
-        ({"rho": "nan"}, "rho = 'nan' is not a number"),
-        ({"rho": "much"}, "rho = 'much' is not a number: expected a number from 0 to 1"),
-        ({"count": "2.5"}, "count = '2.5' is not a whole number: expected a whole number of at least 1"),
-        ({"count": "0"}, "count = 0 is out of range"),
-        ({"kind": "c"}, "kind = 'c' is unknown: expected one of a, b"),
-        ({"strict": "maybe"}, "strict = 'maybe' is not a switch: expected true or false"),
-        ({"rh": "1"}, "sample has no parameter 'rh': did you mean rho?"),
-        ({"zzz": "1"}, "known: rho, count, kind, strict"),
-    ],
-)
+NOT_ADMITTED = [
+    ({"rho": "2"}, "rho = 2 is out of range: expected a number from 0 to 1"),
+    ({"rho": "nan"}, "rho = 'nan' is not a number"),
+    ({"rho": "much"}, "rho = 'much' is not a number: expected a number from 0 to 1"),
+    ({"count": "2.5"}, "count = '2.5' is not a whole number: expected a whole number of at least 1"),
+    ({"count": "0"}, "count = 0 is out of range"),
+    ({"kind": "c"}, "kind = 'c' is unknown: expected one of a, b"),
+    ({"strict": "maybe"}, "strict = 'maybe' is not a switch: expected true or false"),
+    ({"rh": "1"}, "sample has no parameter 'rh': did you mean rho?"),
+    ({"zzz": "1"}, "known: rho, count, kind, strict"),
+]
+
+
+@pytest.mark.parametrize(("words", "message"), NOT_ADMITTED)
 def test_what_is_not_admitted_is_said(words, message):
     with pytest.raises(ParameterError) as error:
         from_strings(Sample, words, owner="sample")

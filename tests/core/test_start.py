@@ -1,12 +1,9 @@
 """What a command imports: a process that pays for what it does not use is slow from its first moment."""
 
-import subprocess
-import sys
-
 import pytest
 
-from hexmend import gallery, io
-from hexmend.quality import measure
+from hexmend import gallery, io, measure
+from tests.programs import run_python
 
 #: Loaded for a few commands alone, and how long it takes.
 HEAVY = {
@@ -32,7 +29,7 @@ SMOOTH = ["smooth", "{mesh}", "-o", "{out}.vtk"]
 
 
 def program(*words):
-    done = subprocess.run([sys.executable, "-c", PROGRAM, *words], capture_output=True, text=True)
+    done = run_python("-c", PROGRAM, *words)
     said, _, modules = done.stdout.rpartition("modules:")
     assert done.returncode == 0, done.stderr
     return said, modules.split()
@@ -50,16 +47,16 @@ def folder(tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        [],
-        *(
-            pytest.param(more, marks=pytest.mark.slow)
-            for more in (["--boundary", "slide"], ["--set", "goal=scaled-jacobian"])
-        ),
-    ],
-)
+MENDING = [
+    [],
+    *(
+        pytest.param(more, marks=pytest.mark.slow)
+        for more in (["--boundary", "slide"], ["--set", "goal=scaled-jacobian"])
+    ),
+]
+
+
+@pytest.mark.parametrize("words", MENDING)
 def test_a_tangled_mesh_is_mended_without_scipy(folder, tmp_path, words):
     said, modules = program("smooth", str(folder / "tangled.vtk"), "-o", str(tmp_path / "out.vtk"), *words)
     assert "no hex is invalid" in said

@@ -1,9 +1,6 @@
 """What type checkers see of the package; `make lint` runs one over it."""
 
 import ast
-import os
-import subprocess
-import sys
 from importlib.resources import files
 from pathlib import Path
 
@@ -11,6 +8,7 @@ import pytest
 
 import hexmend as hx
 from hexmend.smoothers import METHODS
+from tests.programs import run_python
 
 FACE = Path(hx.__file__)
 
@@ -56,16 +54,7 @@ def test_a_type_checker_finds_the_wrong_names_of_a_script_and_no_others(tmp_path
     pytest.importorskip("mypy")
     script = tmp_path / "script.py"
     script.write_text(SCRIPT, encoding="utf-8")
-    words = [
-        sys.executable,
-        "-m",
-        "mypy",
-        "--strict",
-        "--follow-imports=silent",
-        "--cache-dir",
-        str(tmp_path / "cache"),
-    ]
-    environment = os.environ | {"MYPYPATH": str(FACE.parents[1])}
-    done = subprocess.run([*words, script], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    words = ["-m", "mypy", "--strict", "--follow-imports=silent", "--cache-dir", tmp_path / "cache", script]
+    done = run_python(*words, cwd=tmp_path, variables={"MYPYPATH": str(FACE.parents[1])})
     errors = [line.split(":")[1] for line in done.stdout.splitlines() if ": error:" in line]
     assert errors == ["8", "9", "10", "11"], done.stdout + done.stderr

@@ -1,18 +1,25 @@
 """3D view as a widget: mouse, keys and history of camera poses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shiboken6
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QColor, QImage, QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
+from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.canvas.view_captions import Caption
+from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.frame import Frame
-from tests.app.driving import LEFT, turn
+from tests.app.driving import LEFT, heard_from, turn
 from tests.core.grids import grid
 
 MESH = grid(4)
@@ -88,8 +95,7 @@ def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
 
 @pytest.mark.slow
 def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
-    clicks = []
-    canvas.clicked.connect(clicks.append)
+    clicks = heard_from(canvas.clicked)
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
@@ -110,8 +116,7 @@ def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
 
 
 def test_two_clicks_with_ctrl_dig_twice(canvas):
-    dug = []
-    canvas.dug.connect(dug.append)
+    dug = heard_from(canvas.dug)
     view, ctrl = canvas.interactor, Qt.KeyboardModifier.ControlModifier
     QTest.mouseClick(view, LEFT, ctrl, middle(canvas))
     at = QPointF(middle(canvas))
@@ -173,3 +178,124 @@ def test_the_colour_bar_covers_none_of_several_views(canvas, views):
         assert canvas.colour_bar.geometry().left() >= right
     canvas.show_side_by_side([])
     assert canvas.viewport.layers[0].GetViewport() == (0.0, 0.0, 1.0, 1.0)
+
+
+# Colour bar, checked by its pixels.
+
+
+@pytest.fixture
+def ramp():
+    """A colour table in which each entry encodes its row number."""
+    k = np.arange(256, dtype=np.uint8)
+    return np.column_stack([k, 255 - k, np.full(256, 60, np.uint8)])
+
+
+def pixels(widget):
+    # Not grab(): its pixels have the screen's depth, which may be 16 bits.
+    image = QImage(widget.size(), QImage.Format.Format_RGB32)
+    widget.render(image)
+    return np.array(
+        [[image.pixelColor(x, y).getRgb()[:3] for x in range(image.width())] for y in range(image.height())]
+    )
+
+
+def test_the_gradient_shows_the_whole_table_in_order(shown, ramp):
+    bar = ColourBar()
+    bar.set_table(ramp)
+    shown(bar, 90, 500)
+    rgb = pixels(bar)
+    of_table = (rgb[..., 2] == 60) & (rgb[..., 0].astype(int) + rgb[..., 1] == 255)
+    along = [rgb[y, of_table[y], 0].max() for y in range(rgb.shape[0]) if of_table[y].sum() > 5][::-1]
+    assert len(along) > 250
+    assert np.all(np.diff(np.array(along, dtype=int)) >= 0)
+    assert along[0] <= 2
+    assert along[-1] >= 253
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("qapp")
+@given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
+def test_ticks_include_both_ends_and_labels_do_not_overlap(low, high, length):
+    assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
+    bar = ColourBar()
+    bar.set_range(low, high)
+    ticks = bar.ticks(length)
+    assert (ticks[0], ticks[-1]) == (low, high)
+    if len(ticks) > 2:
+        assert np.diff(ticks).min() / (high - low) * length >= 1.9 * bar.fontMetrics().height()
+
+
+def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
+    bar = ColourBar()
+    bar.set_table(ramp)
+    bar.set_range(-0.25, 0.25)
+    kinds = [
+        ("newly invalid", 3, (0x12, 0xAB, 0x34)),
+        ("still invalid", 0, "#ab1234"),
+        ("mended", 12, QColor("#3412ab")),
+    ]
+    bar.set_special(kinds)
+    shown(bar, 130)
+    rgb = pixels(bar)
+    for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
+        assert (rgb == colour).all(axis=2).sum() > 80
+    assert bar.accessibleDescription() == ("newly invalid (3); still invalid; mended (12); q(H) from −0.25 to 0.25")
+    bar.set_special(kinds[2:])
+    assert bar.accessibleDescription().startswith("mended (12); q(H)")
+    assert [one.isVisible() for one in bar.swatches] == [True, False, False]
+
+
+def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(shown):
+    bar = ColourBar()
+    bar.set_special([("newly invalid", 3, "#12ab34"), ("still invalid", 0, "#ab1234")])
+    shown(bar, 130)
+    asked = heard_from(bar.special_clicked)
+    for swatch in bar.swatches:
+        QTest.mouseClick(swatch, Qt.MouseButton.LeftButton)
+    assert asked == ["newly invalid"]
+    bar.swatches[0].setFocus()
+    QTest.keyClick(bar.swatches[0], Qt.Key.Key_Space)
+    assert asked == ["newly invalid"] * 2
+    assert not bar.swatches[1].isEnabled()
+
+
+# Captions of views: each at the top of its view, in one or two rows.
+
+
+class Framed(QWidget):
+    """A view in its frame."""
+
+    def __init__(self):
+        super().__init__()
+        self.view = QWidget()
+        self.frame = ViewFrame(self.view)
+        self.setLayout(self.frame)
+
+
+@pytest.fixture
+def framed(shown):
+    return shown(Framed(), 801, 603)
+
+
+def captions(count):
+    return [Caption(f"view {k}", 0.5, 0, 0, None) for k in range(count)]
+
+
+def test_captions_show_the_counts_of_each_view_first(framed):
+    framed.frame.set_captions(captions(2), None)
+    counts = ((("newly invalid", 1200), ("mended", 0)), (("newly invalid", 0), ("mended", 0)))
+    pairs = zip(framed.frame.captions, counts, strict=True)
+    framed.frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
+    texts = [caption.figures for caption in framed.frame.captions]
+    assert texts == ["1,200 newly invalid · q min 0.5000", "none invalid · q min 0.5000"]
+    assert Caption("view", 0.5, 3, 3, None).figures == "3 inverted · q min 0.5000"
+    assert Caption("view", 0.5, 3, 5, None).figures == "3 inverted · 2 invalid inside · q min 0.5000"
+
+
+def test_a_close_button_in_the_lower_row_closes_its_view(framed, qtbot):
+    frame, view = framed.frame, framed.view
+    frame.set_captions(captions(4), None)
+    cross = next(one for one in view.findChildren(QToolButton) if one.accessibleName() == "Close the view of view 2")
+    with qtbot.waitSignal(frame.view_closed) as closed:
+        QTest.mouseClick(cross, LEFT)
+    assert closed.args == [2]

@@ -81,26 +81,23 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
     assert ((folder / "distributions.svg").read_bytes(), (folder / "surface.png").read_bytes()) == before
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["report", "-o", "a.docx"], "a.docx"),
-        (["report", "-o", "a.html", "--methods", "lapalcian"], "lapalcian"),
-        (["report", "-o", "a.html", "--names", "one"], "--names 'one' cannot be used: expected 2 different names"),
-        (["figures", "-o", "set", "--format", "gif"], "--format 'gif' cannot be used"),
-        (["figures", "-o", "set", "--width-mm", "1"], "a width from 40 to 1000 mm"),
-        (["figures", "-o", "set", "--only", "table,cut"], "--only 'table,cut' cannot be used: expected one of surface"),
-        (
-            ["figures", "-o", "set", "--width-mm", "1000", "--methods", "none"],
-            "1 picture on a page 1000 mm wide: the page",
-        ),
-        (
-            ["figures", "-o", "set", "--width-mm", "1000", "--methods", "mend,laplacian,getme"],
-            "expected at most 67,108,864",
-        ),
-        (["report", "-o", "a.html", "--scene", "../fine.toml"], "2 pictures on a page 170 mm wide: the page has"),
-    ],
-)
+ERRORS = [
+    (["report", "-o", "a.docx"], "a.docx"),
+    (["report", "-o", "a.html", "--methods", "lapalcian"], "lapalcian"),
+    (["report", "-o", "a.html", "--names", "one"], "--names 'one' cannot be used: expected 2 different names"),
+    (["figures", "-o", "set", "--format", "gif"], "--format 'gif' cannot be used"),
+    (["figures", "-o", "set", "--width-mm", "1"], "a width from 40 to 1000 mm"),
+    (["figures", "-o", "set", "--only", "table,cut"], "--only 'table,cut' cannot be used: expected one of surface"),
+    (["figures", "-o", "set", "--width-mm", "1000", "--methods", "none"], "1 picture on a page 1000 mm wide: the page"),
+    (
+        ["figures", "-o", "set", "--width-mm", "1000", "--methods", "mend,laplacian,getme"],
+        "expected at most 67,108,864",
+    ),
+    (["report", "-o", "a.html", "--scene", "../fine.toml"], "2 pictures on a page 170 mm wide: the page has"),
+]
+
+
+@pytest.mark.parametrize(("words", "said"), ERRORS)
 def test_errors_are_reported_before_the_runs(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words, said):
     monkeypatch.chdir(tmp_path)
     Path("../fine.toml").write_text("[page]\ndpi = 2400", encoding="utf-8")

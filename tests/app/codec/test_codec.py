@@ -5,15 +5,11 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from hexmend.errors import ParameterError
-from hexmend.run import StoppingCriteria
+from hexmend import ParameterError, StoppingCriteria
 from hexmend_app.codec.codec import Codec, TypeAdapter
 from hexmend_app.codec.conversion import DecodeError
+from hexmend_app.picture import Box, Colours, Cut, CutStyle, Isolate, Plane, Show
 from hexmend_app.picture.appearance import Arrows, Look, Since, Structure, Traces
-from hexmend_app.picture.colours import Colours
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box, Plane
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.state.run.breakpoints import Breakpoints
 
 

@@ -7,8 +7,7 @@ from PIL import Image
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QLabel
 
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.dialogs.export_dialog import ExportDialog
 from tests.app.driving import phase

@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io, summarise
 from hexmend.io import format_lookup
-from hexmend.quality import summarise
 from hexmend_app.formats.cgns_adf import FORMAT
 from tests.core.grids import grid
 

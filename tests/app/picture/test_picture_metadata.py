@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from hexmend.errors import FileError, ParameterError
-from hexmend.run.recipe import Recipe
+from hexmend import FileError, ParameterError, Recipe
 from hexmend_app.picture import Cut, Page, PicturePanel, Plane, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, digest, read_metadata, with_metadata
 from hexmend_app.picture.png_text import is_png, texts
@@ -95,17 +94,17 @@ def test_too_large_or_damaged_texts_are_errors(picture, tmp_path):
         read_metadata(tmp_path / "short.png")
 
 
-@pytest.mark.parametrize(
-    ("keyword", "text", "message"),
-    [
-        ("hexmend scene", "[bar]\ntick = 1", r"\[bar\] has an unknown key 'tick'"),
-        ("hexmend scene", "[[panels]]\nmesh = 2", "panel 1 shows mesh 2, but there are 1"),
-        ("hexmend meshes", "version = 1", "version = 1 is not a text"),
-        ("hexmend meshes", "", "no mesh is listed"),
-        ("hexmend meshes", "meshes = [{ file = 'a', opened = 'b', shown = 'c' }]", "is no digest"),
-        ("hexmend recipe", "format = 1\n[[stage]]\nmethod = 'rm'", "there is no method 'rm'"),
-    ],
-)
+INVALID_METADATA = [
+    ("hexmend scene", "[bar]\ntick = 1", r"\[bar\] has an unknown key 'tick'"),
+    ("hexmend scene", "[[panels]]\nmesh = 2", "panel 1 shows mesh 2, but there are 1"),
+    ("hexmend meshes", "version = 1", "version = 1 is not a text"),
+    ("hexmend meshes", "", "no mesh is listed"),
+    ("hexmend meshes", "meshes = [{ file = 'a', opened = 'b', shown = 'c' }]", "is no digest"),
+    ("hexmend recipe", "format = 1\n[[stage]]\nmethod = 'rm'", "there is no method 'rm'"),
+]
+
+
+@pytest.mark.parametrize(("keyword", "text", "message"), INVALID_METADATA)
 def test_invalid_metadata_are_errors(tmp_path, keyword, text, message):
     metadata = with_metadata(SCENE, [PicturedMesh("", "0" * 64, "0" * 64)]) | {keyword: text}
     with pytest.raises(FileError, match=message):

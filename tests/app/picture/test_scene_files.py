@@ -5,38 +5,11 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.picture import (
-    AxesStyle,
-    Box,
-    Camera,
-    Captions,
-    ColourBarStyle,
-    Colours,
-    Corner,
-    Cut,
-    CutStyle,
-    Depth,
-    DepthUnit,
-    Isolate,
-    LineStyle,
-    Page,
-    PicturePanel,
-    Plane,
-    Range,
-    Scene,
-    Show,
-    Slab,
-    Sphere,
-    TextPlace,
-    WipeLayout,
-    camera_from,
-    camera_text,
-    from_toml,
-    read_scene,
-    to_toml,
-    write_scene,
-)
+from hexmend_app.picture import Camera, Colours, Cut, CutStyle, Isolate, PicturePanel, Range, Scene, Show, WipeLayout
 from hexmend_app.picture.appearance import Structure, Traces
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
+from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
 
 POSE = Camera(position=(0.1, -2.0, 3e-7), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=1 / 3, parallel=True)
 FULL = Scene(
@@ -55,19 +28,19 @@ FULL = Scene(
 )
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
-        Scene(),
-        FULL,
-        Scene(cut=Cut(box=Box(shares=True)), colours=Colours(range=Range.FITTED)),
-        Scene(cut=Cut(slab=Slab((0, 1, 1), 0.25, thickness=0.2), style=CutStyle.SMOOTH)),
-        Scene(cut=Cut(slab=Slab((0, 1, 0), point=(1, 2, 3), thickness=4), notch=True)),
-        Scene(cut=Cut(sphere=Sphere((1, 2, 3), 0.5), hexes="0-3")),
-        Scene(cut=Cut(depth=Depth(0.5, 2, DepthUnit.EDGES))),
-        Scene(cut=Cut((Plane(),), hexes="0-7, 9, 20-2000000000")),
-    ],
-)
+SCENES = [
+    Scene(),
+    FULL,
+    Scene(cut=Cut(box=Box(shares=True)), colours=Colours(range=Range.FITTED)),
+    Scene(cut=Cut(slab=Slab((0, 1, 1), 0.25, thickness=0.2), style=CutStyle.SMOOTH)),
+    Scene(cut=Cut(slab=Slab((0, 1, 0), point=(1, 2, 3), thickness=4), notch=True)),
+    Scene(cut=Cut(sphere=Sphere((1, 2, 3), 0.5), hexes="0-3")),
+    Scene(cut=Cut(depth=Depth(0.5, 2, DepthUnit.EDGES))),
+    Scene(cut=Cut((Plane(),), hexes="0-7, 9, 20-2000000000")),
+]
+
+
+@pytest.mark.parametrize("scene", SCENES)
 def test_written_scenes_are_read(scene, tmp_path):
     assert from_toml(to_toml(scene)) == scene
     write_scene(tmp_path / "scene.toml", scene)
@@ -93,50 +66,50 @@ def test_a_camera_is_one_line(camera):
     assert camera_from(text) == camera_from(f" camera = {text}\n") == camera
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("[bar]\ntick = 3", "[bar] has an unknown key 'tick': expected place, ticks, title"),
-        ("bars = 1", "the scene has an unknown key 'bars': expected format, camera"),
-        ("format = 2", "format = 2 is not read: expected 1; use the Hexmend that wrote it"),
-        ("cut = 3", "[cut] is not a table"),
-        ("[page]\ndpi = 'x'", "[page] dpi = 'x' is not a number: expected a number from 5 to 4,800"),
-        ("[page]\nwidth = nan", "[page] width = nan is out of range: expected a number from 5 to 3,000 mm"),
-        ("[page]\npixels = [16384, 16384]", "[page]: the page has 16,384 × 16,384 pixels: expected at most 67,108,864"),
-        ("[page]\nwidth = 3000\ndpi = 4800", "expected sides of 16 to 16,384"),
-        ("[page]\nwidth = 30\npixels = [64, 64]", "expected one of them"),
-        ("[page]\nmargin = 300", "margin = 300 leaves no space"),
-        ("[page]\nbackground = 'red'", "expected white, transparent or #rrggbb"),
-        ("[[panels]]\n[[panels]]\nmesh = 0", "[panels 2] mesh = 0 is out of range"),
-        ("[[panels]]\ncamera = 'a'", "there is no camera 'a': [cameras] has none"),
-        ("[cut]\nplanes = [{}, { normal = [1, 2] }]", "[cut] planes 2 normal = [1, 2] has 2 entries: expected 3"),
-        ("[cut]\nplanes = [{ normal = [0, 0, 0] }]", "[cut] planes 1: normal = [0, 0, 0] is no direction"),
-        ("[cut]\nplanes = [{ position = 0.1, point = [0, 0, 0] }]", "a position and a point"),
-        ("[cut]\nplanes = [{}]\nbox = {}", "planes and a box"),
-        ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: hexes 3 to 1 follow -1: expected ascending ranges"),
-        (
-            "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
-            "hexes: 'all' is not a range of numbers: expected, for example, 0-120, 130",
-        ),
-        ("[cut]\nplanes = [{}]\nhexes = '0'\nstyle = 'smooth'", "require a cut by whole hexes"),
-        ("[cut]\nstyle = 'rough'", "[cut] style = 'rough' is unknown: expected crinkle, smooth"),
-        ("[camera]\nfrom = 'up'", "[camera]: from = 'up' is unknown"),
-        ("[camera]\nposition = [1, 2, 3]", "the exact pose is incomplete"),
-        ("[cameras.a]\nup = 'w'", "[cameras.a]: up = 'w' is unknown"),
-        ("[show]\nisolate = { hexes = [1, 2.5] }", "[show] isolate hexes = 2.5 is not a whole number"),
-        ("[show]\nquality = [1, 0]", "expected the lower number first"),
-        ("[colours]\nmetric = 'beauty'", "metric = 'beauty' is unknown: expected one of q"),
-        ("[colours]\nrange = [1]", "[colours] range = [1] has 1 entries: expected 2"),
-        ("[structure]\nsharp = 1", "[structure] sharp = 1 is not a boolean"),
-        ('[bar]\ntitle = "a\\u001b"', "is not a line of text"),
-        ("[lines]\nedges = " + "9" * 400, "a huge number"),
-        ("[lines]\nedges = " + "9" * 5000, "is not TOML"),
-        ("a" + ".a" * 40 + " = 1", "a key of more than 8 parts"),
-        ("a = " + "[" * 5000, "nested too deeply"),
-        ("[page]\nwidth = " + "{a.a.a.a.a.a.a.a=" * 150 + "1" + "}" * 150, "[page] width = a table is not a number"),
-        ("[bar", "is not TOML: expected"),
-    ],
-)
+ERRORS = [
+    ("[bar]\ntick = 3", "[bar] has an unknown key 'tick': expected place, ticks, title"),
+    ("bars = 1", "the scene has an unknown key 'bars': expected format, camera"),
+    ("format = 2", "format = 2 is not read: expected 1; use the Hexmend that wrote it"),
+    ("cut = 3", "[cut] is not a table"),
+    ("[page]\ndpi = 'x'", "[page] dpi = 'x' is not a number: expected a number from 5 to 4,800"),
+    ("[page]\nwidth = nan", "[page] width = nan is out of range: expected a number from 5 to 3,000 mm"),
+    ("[page]\npixels = [16384, 16384]", "[page]: the page has 16,384 × 16,384 pixels: expected at most 67,108,864"),
+    ("[page]\nwidth = 3000\ndpi = 4800", "expected sides of 16 to 16,384"),
+    ("[page]\nwidth = 30\npixels = [64, 64]", "expected one of them"),
+    ("[page]\nmargin = 300", "margin = 300 leaves no space"),
+    ("[page]\nbackground = 'red'", "expected white, transparent or #rrggbb"),
+    ("[[panels]]\n[[panels]]\nmesh = 0", "[panels 2] mesh = 0 is out of range"),
+    ("[[panels]]\ncamera = 'a'", "there is no camera 'a': [cameras] has none"),
+    ("[cut]\nplanes = [{}, { normal = [1, 2] }]", "[cut] planes 2 normal = [1, 2] has 2 entries: expected 3"),
+    ("[cut]\nplanes = [{ normal = [0, 0, 0] }]", "[cut] planes 1: normal = [0, 0, 0] is no direction"),
+    ("[cut]\nplanes = [{ position = 0.1, point = [0, 0, 0] }]", "a position and a point"),
+    ("[cut]\nplanes = [{}]\nbox = {}", "planes and a box"),
+    ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: hexes 3 to 1 follow -1: expected ascending ranges"),
+    (
+        "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
+        "hexes: 'all' is not a range of numbers: expected, for example, 0-120, 130",
+    ),
+    ("[cut]\nplanes = [{}]\nhexes = '0'\nstyle = 'smooth'", "require a cut by whole hexes"),
+    ("[cut]\nstyle = 'rough'", "[cut] style = 'rough' is unknown: expected crinkle, smooth"),
+    ("[camera]\nfrom = 'up'", "[camera]: from = 'up' is unknown"),
+    ("[camera]\nposition = [1, 2, 3]", "the exact pose is incomplete"),
+    ("[cameras.a]\nup = 'w'", "[cameras.a]: up = 'w' is unknown"),
+    ("[show]\nisolate = { hexes = [1, 2.5] }", "[show] isolate hexes = 2.5 is not a whole number"),
+    ("[show]\nquality = [1, 0]", "expected the lower number first"),
+    ("[colours]\nmetric = 'beauty'", "metric = 'beauty' is unknown: expected one of q"),
+    ("[colours]\nrange = [1]", "[colours] range = [1] has 1 entries: expected 2"),
+    ("[structure]\nsharp = 1", "[structure] sharp = 1 is not a boolean"),
+    ('[bar]\ntitle = "a\\u001b"', "is not a line of text"),
+    ("[lines]\nedges = " + "9" * 400, "a huge number"),
+    ("[lines]\nedges = " + "9" * 5000, "is not TOML"),
+    ("a" + ".a" * 40 + " = 1", "a key of more than 8 parts"),
+    ("a = " + "[" * 5000, "nested too deeply"),
+    ("[page]\nwidth = " + "{a.a.a.a.a.a.a.a=" * 150 + "1" + "}" * 150, "[page] width = a table is not a number"),
+    ("[bar", "is not TOML: expected"),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), ERRORS)
 def test_errors_are_reported_with_their_position(text, message, tmp_path):
     with pytest.raises(ParameterError) as error:
         from_toml(text)

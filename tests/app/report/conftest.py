@@ -9,9 +9,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from hexmend import gallery
-from hexmend.iteration import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria, gallery
 from hexmend_app.report.case import Case, run_methods
 from tests.browsers import SOFTWARE, chromium
 

@@ -4,13 +4,15 @@ import re
 import struct
 import xml.etree.ElementTree as ET
 
+import numpy as np
 import pytest
 
-from hexmend.errors import ParameterError
+from hexmend import ParameterError, gallery, measure
 from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend_app.report.histogram import Histogram, Outline
 from hexmend_app.report.run_figures import write_convergence, write_distributions
+from hexmend_app.report.worst_hexes import Locked, reason, worst_table
 
 HISTOGRAM = Histogram(
     [Outline("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Outline("after", "#0072B2", [0, 4, 9])],
@@ -130,13 +132,13 @@ def test_a_figure_is_as_wide_as_it_is_asked_to_be(tmp_path, stem):
         assert float(root.get("width").removesuffix("pt")) == pytest.approx(width / 25.4 * 72, abs=0.1)
 
 
-@pytest.mark.parametrize(
-    ("stem", "name"),
-    [
-        ("distributions", "$x_{ and $ of\ntwo lines"),
-        ("convergence", "bell\a, bad\udcff and ]]> & <svg>"),
-    ],
-)
+NAMES_FROM_FILES = [
+    ("distributions", "$x_{ and $ of\ntwo lines"),
+    ("convergence", "bell\a, bad\udcff and ]]> & <svg>"),
+]
+
+
+@pytest.mark.parametrize(("stem", "name"), NAMES_FROM_FILES)
 def test_names_from_files_are_plain_text(tmp_path, stem, name):
     assert len(list(ET.parse(draw(tmp_path / f"{stem}.svg", name)).iter())) > 50
 
@@ -147,3 +149,39 @@ def test_a_count_that_is_always_0_is_left_out(tmp_path):
         root = ET.parse(draw(tmp_path / "convergence.svg", "mend", rows=rows)).getroot()
         heights.append(float(root.get("height").removesuffix("pt")))
     assert heights[0] > heights[1] > heights[2]
+
+
+# Table of the worst hexes, and locked hexes.
+
+
+def inverted_corner():
+    """Return a grid with a hex that is inverted by boundary nodes alone, and the node that inverts it."""
+    mesh = gallery.make("cube", size=27)
+    points = mesh.points.copy()
+    corner = int(np.argmin(points.sum(axis=1)))
+    points[corner] += 0.9 * np.ptp(points, axis=0)
+    return mesh.with_points(points), corner
+
+
+def test_a_locked_hex_is_first_and_its_node_is_named():
+    mesh, corner = inverted_corner()
+    figures = measure(mesh.points, mesh.hexes)
+    locked = Locked.of(mesh, figures)
+    (hex,) = np.flatnonzero((mesh.hexes == corner).any(axis=1))
+    assert locked.locked[hex]
+    said = reason(mesh, figures, locked, int(hex))
+    assert said.startswith("locked at node")
+    assert "σ = -" in said
+    assert str(corner) in said
+    table = worst_table("now", mesh, figures, locked)
+    assert table.rows[0][0] == str(hex)
+    assert "locked" in locked.words()
+    assert table.rows[0][1:3] == [f"{figures.q[hex]:.4f}", f"{figures.scaled_jacobian[hex]:.4f}"]
+
+
+def test_a_valid_mesh_has_no_locked_hexes():
+    mesh = gallery.make("cube", size=27)
+    figures = measure(mesh.points, mesh.hexes)
+    locked = Locked.of(mesh, figures)
+    assert locked.words() == ""
+    assert all(row[-1].startswith("valid") for row in worst_table("now", mesh, figures, locked).rows)

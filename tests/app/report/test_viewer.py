@@ -2,12 +2,17 @@
 
 import base64
 import gzip
+import os
+import signal
 
 import numpy as np
 import pytest
 
-from hexmend.quality import METRICS
+from hexmend import METHODS, METRICS, Run, StoppingCriteria, gallery
+from hexmend.cli.process.interrupts import ExitAfterIteration
+from hexmend_app.report import case
 from hexmend_app.report import viewer as module
+from hexmend_app.report.case import run_methods
 from hexmend_app.report.viewer import ViewerState, in_script, packed, viewer
 
 
@@ -66,3 +71,42 @@ def test_a_mesh_too_large_for_a_browser_is_a_picture_with_the_reason(case, monke
     assert "<figure>picture</figure>" in page
     assert "864 hexes, at most 10" in page
     assert "<canvas" not in page
+
+
+# The runs of a report.
+
+
+def test_an_interrupt_between_two_methods_keeps_those_that_are_done(monkeypatch):
+    def run_one(mesh, smoother, stop, watch):
+        if smoother.name == "local-sd":
+            raise KeyboardInterrupt
+        return whole(mesh, smoother, stop, watch)
+
+    whole = case.run_one
+    monkeypatch.setattr(case, "run_one", run_one)
+    mesh = gallery.make("cube", size=27, scramble=0.3)
+    done = run_methods(mesh, None, [METHODS["laplacian"](), METHODS["local-sd"]()], StoppingCriteria(max_iterations=3))
+    assert done.interrupted
+    assert [one.name for one in done.versions][1:] == ["laplacian"]
+
+
+@pytest.mark.parametrize(("owner", "name"), [(case, "summarise"), (case, "advise"), (Run, "result")])
+def test_a_second_signal_after_the_last_iteration_keeps_what_the_run_reached(monkeypatch, owner, name):
+    whole, sent = getattr(owner, name), []
+    methods = [METHODS["laplacian"](), METHODS["local-sd"]()]
+
+    def interrupted(*args):
+        if signals.asked and not sent:
+            sent.append(signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGINT)
+        return whole(*args)
+
+    def ask(run):
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(owner, name, interrupted)
+    mesh = gallery.make("cube", size=27, scramble=0.3)
+    with ExitAfterIteration() as signals:
+        done = run_methods(mesh, None, methods, StoppingCriteria(max_iterations=1), watch=ask)
+    assert done.interrupted
+    assert [one.name for one in done.versions] == ["initial", "laplacian"]

@@ -7,11 +7,7 @@ import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication, QDialogButtonBox
 
-from hexmend import gallery, io
-from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Mesh, Stage, StoppingCriteria, gallery, io
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks import mesh_change, mesh_saver
 from hexmend_app.state.tasks.task import running

@@ -7,9 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from hexmend import gallery, io
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria, gallery, io
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase

@@ -1,49 +1,60 @@
 """Examples of docs/development/extending-window.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
 
 import sys
+from importlib import import_module
 
 import numpy as np
 import pytest
 import pyvista as pv
 from PIL import Image
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QFileDialog
+from PySide6.QtWidgets import QComboBox, QFileDialog, QLabel
 
 import hexmend_app.features
-from hexmend import gallery
+from hexmend import METRICS, ParameterError, gallery, write
 from hexmend.cli.main import main
-from hexmend.io import write
-from hexmend.quality import METRICS
+from hexmend_app.picture import colour_map, from_toml, layer_switch
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
-from tests.app.driving import open_and_wait
+from tests.app.driving import named, open_and_wait
+from tests.app.features.structure.layers import count
 from tests.examples import example
 
 EXAMPLE = example("A feature of the viewer")
 
 
-def _add_folder(tmp_path, monkeypatch, name, source):
-    folder = tmp_path / name
-    folder.mkdir()
-    (folder / "__init__.py").touch()
-    (folder / "feature.py").write_text(source, encoding="utf-8")
+@pytest.fixture
+def add_folder(tmp_path, monkeypatch):
+    """Add a folder of a feature with a source text; its modules are forgotten afterwards."""
     monkeypatch.setattr(hexmend_app.features, "__path__", [*hexmend_app.features.__path__, str(tmp_path)])
+    added = []
+
+    def add(name, source):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").touch()
+        (tmp_path / name / "feature.py").write_text(source, encoding="utf-8")
+        added.append(f"hexmend_app.features.{name}")
+
+    yield add
+    for name in [name for name in sys.modules if name.startswith(tuple(added))]:
+        del sys.modules[name]
 
 
 @pytest.fixture
-def with_folder(qtbot, tmp_path, monkeypatch):
+def with_folder(qtbot, add_folder):
     """A window with the feature of an additional folder."""
-    _add_folder(tmp_path, monkeypatch, "volume", EXAMPLE)
+    add_folder("volume", EXAMPLE)
     window = Window()
     window.build_features()
     window.show()
     yield window
     window.close()
     window.deleteLater()
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.volume")]:
-        del sys.modules[name]
 
 
 def test_a_feature_is_found_by_its_folder(with_folder, cube):
@@ -61,12 +72,9 @@ def test_a_feature_is_found_by_its_folder(with_folder, cube):
 
 
 @pytest.fixture
-def with_plotter(tmp_path, monkeypatch):
+def with_plotter(add_folder):
     """Add the folder of the feature that draws with PyVista."""
-    _add_folder(tmp_path, monkeypatch, "cad_surface", example("Drawing with PyVista"))
-    yield
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.cad_surface")]:
-        del sys.modules[name]
+    add_folder("cad_surface", example("Drawing with PyVista"))
 
 
 @pytest.mark.slow
@@ -109,12 +117,9 @@ def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder,
 
 
 @pytest.fixture
-def with_notes(tmp_path, monkeypatch):
+def with_notes(add_folder):
     """Add the folder of the feature with a state."""
-    _add_folder(tmp_path, monkeypatch, "notes", example("State and exports of a feature"))
-    yield
-    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.notes")]:
-        del sys.modules[name]
+    add_folder("notes", example("State and exports of a feature"))
 
 
 def _choose_and_write(window, hex, text):
@@ -150,15 +155,13 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     assert csv.read_text(encoding="utf-8").splitlines() == ["hex,note", "3,thin", "5,at the weld"]
 
 
-def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_path, monkeypatch):
-    _add_folder(tmp_path, monkeypatch, "not_importable", "raise RuntimeError('at import')")
-    _add_folder(tmp_path, monkeypatch, "broken_package", EXAMPLE)
+def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, add_folder, tmp_path, monkeypatch):
+    add_folder("not_importable", "raise RuntimeError('at import')")
+    add_folder("broken_package", EXAMPLE)
     (tmp_path / "broken_package" / "__init__.py").write_text("raise LookupError('in the package')", encoding="utf-8")
     source = EXAMPLE.replace("class FeatureVolume", "class FeatureTwice(Feature):\n    pass\n\n\nclass FeatureVolume")
-    _add_folder(tmp_path, monkeypatch, "two_classes", source)
-    _add_folder(
-        tmp_path, monkeypatch, "no_actions", EXAMPLE.replace("        return (\n", "        return 1 / 0, (\n", 1)
-    )
+    add_folder("two_classes", source)
+    add_folder("no_actions", EXAMPLE.replace("        return (\n", "        return 1 / 0, (\n", 1))
     reported = []
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: reported.append(kind))
     window = Window()
@@ -171,5 +174,76 @@ def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_pa
     assert "volume" in window.docks.ids()
     window.close()
     window.deleteLater()
-    for name in [name for name in sys.modules if name.endswith(("two_classes.feature", "no_actions.feature"))]:
-        del sys.modules[name]
+
+
+# Examples of docs/development/extending-window.md: a colour map and a layer in window, sessions and pictures.
+
+
+BOX = "#cc0066"
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Register both examples from files in additional folders.
+
+    Tests of other modules may run between those of this one, so that the fixture is made more than once a process:
+    the modules are imported anew each time, as they register their entries when they are imported.
+    """
+    folder = tmp_path_factory.mktemp("additions")
+    with pytest.MonkeyPatch.context() as patch:
+        for package, title, registry, load in (
+            ("hexmend_app.picture.colour_maps", "A colour map", colour_map.COLOUR_MAPS, colour_map.load_colour_maps),
+            ("hexmend_app.scene.layers.optional", "A layer of the 3D view", layer_switch.LAYERS,
+             optional_layer.load_layers),
+        ):  # fmt: skip
+            own = folder / package
+            own.mkdir()
+            (own / "made_up.py").write_text(example(title), encoding="utf-8")
+            patch.setattr(registry, "_entries", dict(registry))
+            sys.modules.pop(f"{package}.made_up", None)
+            patch.setattr(import_module(package), "__path__", [*import_module(package).__path__, str(own)])
+            load()
+        yield
+
+
+@pytest.fixture
+def window(files, fresh_window):
+    """A window with both examples and an open mesh."""
+    return fresh_window
+
+
+@pytest.mark.slow
+def test_panel_menu_palette_and_map_box_have_them(window):
+    row = window.features["structure"].panel.layers["bounding-box"]
+    assert row.box.text() == "Bounding box"
+    assert next(label.text() for label in row.entries.findChildren(QLabel)).count("×") == 2
+    action = window.action("show_bounding-box")
+    assert "Bounding box: off" in {entry.name for entry in command_entries(window.window_actions)}
+    assert "| Bounding box | `Ctrl+Shift+B` |" in as_markdown(window.menus.declared())
+    action.trigger()
+    window.refresh()
+    assert row.box.isChecked()
+    assert action.isChecked()
+    assert window.session.view.look.structure == Structure.of("bounding-box")
+    maps = named(window, QComboBox, "Colour map")
+    assert maps.itemData(maps.findData("slate"), Qt.ItemDataRole.ToolTipRole) == "From dark blue over grey to cream."
+
+
+@pytest.mark.slow
+def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
+    words = ["render", str(mesh_file), "--size", "640x480", "-o"]
+    options = ["--structure", "sharp,bounding-box", "--colour-map", "slate"]
+    scene = tmp_path / "scene.toml"
+    assert main([*words, str(tmp_path / "options.png"), *options, "--save-scene", str(scene)]) == 0
+    assert from_toml(scene.read_text()).structure == Structure.of("sharp", "bounding-box")
+    assert main([*words, str(tmp_path / "scene.png"), "--scene", str(scene)]) == 0
+    images = [np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")) for name in ("options", "scene")]
+    assert count(images[0], BOX) > 20
+    np.testing.assert_array_equal(*images)
+
+
+def test_an_unknown_layer_or_map_is_named_with_the_known_ones():
+    with pytest.raises(ParameterError, match="there is no layer 'bounding-bxo'"):
+        Structure.of("bounding-bxo")
+    with pytest.raises(ParameterError, match="map = 'jet' is unknown: expected one of viridis"):
+        from_toml('format = 1\n[colours]\nmap = "jet"\n')

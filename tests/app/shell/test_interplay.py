@@ -1,17 +1,16 @@
 """Interactions of features: another mesh, another cut or a run in the middle of an operation."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from hexmend import io
-from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.cut_shapes import Box, Plane
+from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
+from hexmend_app.feature import MENUS
+from hexmend_app.picture import Box, Cut, Plane
+from hexmend_app.shell.keys import as_markdown
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
@@ -92,3 +91,40 @@ def test_a_cut_begins_in_a_mesh_of_any_units_however_far_unused_nodes_are(window
         open_mesh(qtbot, window, tmp_path / "mesh.vtu", opened)
         key(window, Qt.Key.Key_C)
         assert 0 < window.canvas.viewport.shown < mesh.n_hexes
+
+
+# Features: their actions have a place and a help, and they are refreshed when what they show changes.
+
+
+def test_every_action_has_a_known_menu_and_help(window):
+    declared = list(window.menus.declared())
+    assert {one.menu for one in declared} <= {"", *MENUS}
+    for one in declared:
+        assert one.help.endswith("."), one.id
+
+
+def test_docs_keys_match_the_declared_actions(window):
+    """`make docs` writes it."""
+    page = Path(__file__).resolve().parents[3] / "docs" / "reference" / "keys.md"
+    assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
+
+
+def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(window, qtbot, monkeypatch):
+    calls = []
+    monkeypatch.setattr(window.features["help"], "refresh", lambda: calls.append(1))
+    for _ in range(20):
+        window.session.selection.changed.emit()
+    assert calls == []
+    qtbot.waitUntil(lambda: calls != [])
+    assert calls == [1]
+
+
+def test_a_new_iteration_refreshes_only_features_that_show_it(window, qtbot, monkeypatch):
+    calls = []
+    for name in ("timeline", "help"):
+        feature = window.features[name]
+        monkeypatch.setattr(feature, "refresh", lambda name=name: calls.append(name))
+    window.refresh_iteration()
+    assert calls == ["timeline"]
+    window.refresh()
+    assert sorted(calls) == ["help", "timeline", "timeline"]

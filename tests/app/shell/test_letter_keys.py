@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend_app.shell.key_filters import FocusAfterReturn, LetterKeys
-from tests.app.driving import named
+from tests.app.driving import named, type_text
 
 WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
 
@@ -82,8 +82,7 @@ def test_text_fields_receive_letters_and_numbers(lists):
     lists.editable.lineEdit().selectAll()
     QTest.keyClicks(lists.editable, "slm")
     lists.number.setFocus()
-    lists.number.selectAll()
-    QTest.keyClicks(lists.number, "11")
+    type_text(lists.number, "11")
     assert (lists.editable.currentText(), lists.number.value(), lists.pressed) == ("slm", 11, [])
 
 

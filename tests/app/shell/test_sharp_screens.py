@@ -1,12 +1,10 @@
 """The window on screens with a device pixel ratio above 1."""
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from PIL import Image
+
+from tests.programs import run_python
 
 _SCALED = """
 import sys
@@ -59,12 +57,8 @@ window.close()
 
 @pytest.mark.slow
 def test_clicks_select_the_hex_under_the_pointer(tmp_path):
-    environment = os.environ | {"QT_SCALE_FACTOR": "1.5"}
     picture = tmp_path / "picture.png"
-    done = subprocess.run(
-        [sys.executable, "-c", _SCALED, str(picture), str(tmp_path)],
-        env=environment, capture_output=True, text=True, timeout=200,
-    )  # fmt: skip
+    done = run_python("-c", _SCALED, picture, tmp_path, variables={"QT_SCALE_FACTOR": "1.5"}, timeout=200)
     assert done.returncode == 0, done.stderr
     with Image.open(picture) as image:
         assert image.size == (640, 400)

@@ -1,8 +1,6 @@
 """Threads that still write the session of a window keep nothing else waiting."""
 
 import os
-import subprocess
-import sys
 import threading
 
 import pytest
@@ -12,16 +10,9 @@ from hexmend_app.state.settings.paths import VARIABLE
 from hexmend_app.state.tasks.task import Task, running
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE
+from tests.programs import run_python
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def gate():
-    """Event that threads wait for; set at the end, so that a failing test leaves no thread."""
-    gate = threading.Event()
-    yield gate
-    gate.set()
 
 
 @pytest.fixture
@@ -107,7 +98,6 @@ sys.exit(open_window(sys.argv[1]))
 def test_the_process_ends_with_its_window_although_a_file_does_not_respond(qapp, tmp_path, before):
     os.mkfifo(tmp_path / "dead.vtk")
     program = PROGRAM.replace("{before}", before)
-    words = [sys.executable, "-c", program, str(tmp_path / "dead.vtk"), str(tmp_path / "settings")]
-    ended = subprocess.run(words, capture_output=True, text=True, timeout=100)
+    ended = run_python("-c", program, tmp_path / "dead.vtk", tmp_path / "settings", timeout=100)
     assert ended.returncode == 0, ended.stderr
     assert "closed while threads were running: reading dead.vtk" in ended.stderr

@@ -15,8 +15,7 @@ from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.features.quality.statistics import StatisticsTable
-from hexmend_app.picture import Page, Scene
-from hexmend_app.picture.visibility import Show
+from hexmend_app.picture import Page, Scene, Show
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node

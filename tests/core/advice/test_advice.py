@@ -3,15 +3,11 @@
 import numpy as np
 import pytest
 
-from hexmend.advice import advise
+from hexmend import METHODS, Outcome, Recipe, Stage, StoppingCriteria, advise, iterate, smooth
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.mesh.second_order import MID_EDGES
 from hexmend.quality import measure, objective
-from hexmend.run import iterate, smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid, with_edge_midpoints
 from tests.core.smoothers.mend.test_mend import with_locked_corner

@@ -1,7 +1,5 @@
 """Solids whose corners, curves and patches are known."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend.boundary import PartitionedSurface, SlidingBoundary

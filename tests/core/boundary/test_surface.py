@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend import MeshError, kernels
 from hexmend.boundary import ClosestPointTrees, NodeClass, PartitionedSurface, boundary_of, classify
-from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, cylinder, project, wavy
 from tests.core.grids import grid
 

@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
 
 import pytest
@@ -11,6 +9,7 @@ import pytest
 from hexmend.cli.process.interrupts import ENDING, CleanExit, ExitAfterIteration, FinishWriting
 from hexmend.signal_guard import uninterrupted
 from tests.patience import PATIENCE
+from tests.programs import run_python
 
 #: A program that gets a signal after each handler that a block restores, and rests then.
 RESTORES = """
@@ -106,5 +105,5 @@ def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it():
 @pytest.mark.slow
 @pytest.mark.parametrize(("block", "status", "said"), [("completes", 7, ""), ("", 130, "hexmend: interrupted\n")])
 def test_a_signal_while_a_block_restores_handlers_leaves_no_timer(block, status, said):
-    done = subprocess.run([sys.executable, "-c", RESTORES, block], capture_output=True, text=True, check=False)
+    done = run_python("-c", RESTORES, block)
     assert (done.returncode, done.stderr) == (status, said)

@@ -6,17 +6,15 @@ from hexmend.cli.output.progress import follow
 from hexmend.run import StoppingCriteria, iterate, progress
 
 
-def test_a_short_run_says_nothing_on_standard_error(mesh, tmp_path, capsys):
+def test_a_short_run_says_nothing_on_standard_error(mesh, tmp_path, run_command):
     assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.vtu"), "--method", "laplacian"]) == 0
-    assert main(["compare", str(mesh), "-o", str(tmp_path / "tables"), "--methods", "laplacian"]) == 0
-    assert capsys.readouterr().err == ""
+    assert run_command("compare", mesh, "-o", tmp_path / "tables", "--methods", "laplacian").err == ""
 
 
-def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(mesh, tmp_path, capsys, monkeypatch):
+def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(mesh, tmp_path, run_command, monkeypatch):
     monkeypatch.setattr(progress, "LINE_INTERVAL", 0.0)
     words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian", "--max-iterations", "3"]
-    assert main([*map(str, words), "--tolerance", "0"]) == 0
-    said = capsys.readouterr()
+    said = run_command(*words, "--tolerance", "0")
     assert [line.split(",")[0] for line in said.err.splitlines()] == [
         f"laplacian: iteration {k} of at most 3" for k in (1, 2, 3)
     ]

@@ -2,15 +2,16 @@
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
 
 import pytest
 
-from hexmend import io
+from hexmend import io, summarise
 from hexmend.cli.main import main
-from hexmend.quality import summarise
+from tests.core.grids import grid
 from tests.patience import PATIENCE
 
 #: The program, which tells of every iteration.
@@ -115,23 +116,21 @@ def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
 
 
 @pytest.mark.parametrize("option", ["--json", "--history", "--save-recipe"])
-def test_a_report_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, option, capsys):
+def test_a_report_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, option, run_command):
     out = tmp_path / "out.vtu"
     for place, said in (
         (mesh, "is the mesh"),
         (tmp_path / "no" / "a.toml", "there is no folder"),
         (tmp_path, "is a folder"),
     ):
-        assert main(["smooth", str(mesh), "-o", str(out), option, str(place)]) == 3
-        assert said in capsys.readouterr().err
+        assert said in run_command("smooth", mesh, "-o", out, option, place, status=3).err
     assert not out.exists()
 
 
-def test_a_mesh_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, capsys):
+def test_a_mesh_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, run_command):
     assert main(["smooth", str(mesh), "-o", str(tmp_path / "no" / "out.vtu")]) == 3
     (tmp_path / "folder.vtu").mkdir()
-    assert main(["smooth", str(mesh), "-o", str(tmp_path / "folder.vtu")]) == 3
-    assert "is a folder" in capsys.readouterr().err
+    assert "is a folder" in run_command("smooth", mesh, "-o", tmp_path / "folder.vtu", status=3).err
 
 
 def test_letters_that_a_terminal_has_not_and_a_full_disk_are_no_traceback(mesh):
@@ -147,20 +146,94 @@ def test_letters_that_a_terminal_has_not_and_a_full_disk_are_no_traceback(mesh):
         assert "Traceback" not in done.stderr
 
 
-def test_codes_that_steer_a_terminal_are_not_printed(tmp_path, capsys):
+def test_codes_that_steer_a_terminal_are_not_printed(tmp_path, run_command):
     path = tmp_path / "a\x1b[2Jb.vtu"
     path.write_text("no mesh")
-    assert main(["info", str(path)]) == 3
-    assert "\x1b" not in capsys.readouterr().err
+    assert "\x1b" not in run_command("info", path, status=3).err
 
 
 @pytest.mark.parametrize("scale", [1e103, 1e-110, 1e300])
-def test_lengths_beyond_numbers_are_one_clear_error(tmp_path, scale, capsys):
+def test_lengths_beyond_numbers_are_one_clear_error(tmp_path, scale, run_command):
     text = "\n".join(f"{x * scale!r} {y * scale!r} {z * scale!r}" for z in (0, 1) for y in (0, 1) for x in (0, 1))
     path = tmp_path / "far.vtk"
     path.write_text(
         "# vtk DataFile Version 2.0\nv\nASCII\nDATASET UNSTRUCTURED_GRID\n"
         f"POINTS 8 double\n{text}\nCELLS 1 9\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 1\n12\n"
     )
-    assert main(["info", str(path), "--json"]) == 3
-    assert "unit of length" in capsys.readouterr().err
+    assert "unit of length" in run_command("info", path, "--json", status=3).err
+
+
+# Files to write that are none: folders, links to themselves, pipes, empty names; and streams that are closed.
+
+
+@pytest.fixture
+def mesh_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    io.write("mesh.vtu", grid(2))
+    return "mesh.vtu"
+
+
+WRITING = {
+    "smooth": ["smooth", "mesh.vtu", "-o"],
+    "pad": ["pad", "mesh.vtu", "-o"],
+    "repair": ["repair", "mesh.vtu", "-o"],
+    "gallery": ["gallery", "cube", "--size", "8", "-o"],
+    "report of a run": ["smooth", "mesh.vtu", "-o", "out.vtu", "--json"],
+}
+
+
+@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+def test_a_folder_cannot_be_written(words, mesh_name, run_command):
+    assert run_command(*words, ".", status=3).err.startswith(
+        "hexmend: .: is a folder: expected the name of a file to write."
+    )
+    assert os.listdir() == [mesh_name]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows lets few users make links")
+@pytest.mark.parametrize("words", WRITING.values(), ids=WRITING)
+def test_a_link_to_itself_cannot_be_written(words, mesh_name, run_command):
+    os.symlink("loop.vtu", "loop.vtu")
+    printed = run_command(*words, "loop.vtu", status=3).err
+    assert "loop.vtu: is a link to itself. Remove it, or choose another name." in printed
+    assert sorted(os.listdir()) == ["loop.vtu", mesh_name]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
+@pytest.mark.parametrize("words", [WRITING["smooth"], pytest.param(WRITING["report of a run"], marks=pytest.mark.slow)])
+def test_a_named_pipe_is_not_waited_for(words, mesh_name):
+    os.mkfifo("pipe.vtu")
+    done = run(shlex.join([*words, "pipe.vtu"]))
+    assert done.returncode == 3
+    assert "pipe.vtu: is a named pipe: expected the name of a file to write." in done.stderr
+
+
+EMPTY_WORDS = [
+    ["info", ""],
+    ["smooth", "mesh.vtu", "-o", ""],
+    ["smooth", "mesh.vtu", "-o", "out.vtu", "--recipe", ""],
+    ["smooth", "mesh.vtu", "-o", "out.vtu", "--fix", ""],
+    ["study", "recipe.toml", "mesh.vtu", "--scheduler", ""],
+]
+
+
+@pytest.mark.parametrize("words", EMPTY_WORDS)
+def test_empty_words_are_refused(words, mesh_name, run_command):
+    assert "is empty: expected a value." in run_command(*words, status=2).err
+    assert os.listdir() == [mesh_name]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the shell of Windows does not close streams")
+@pytest.mark.parametrize("closed", ["<&- >&- 2>&-", pytest.param(">&-", marks=pytest.mark.slow)])
+def test_a_command_works_without_the_streams_that_are_closed(closed, mesh_name):
+    done = run(f"smooth mesh.vtu -o out.vtu {closed}")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert io.read("out.vtu").n_hexes == 8
+    assert run(f"info mesh.vtu {closed}").returncode == 0
+    assert run(f"info missing.vtu {closed}").returncode == 3
+
+
+def run(words):
+    return subprocess.run(
+        f"{shlex.quote(sys.executable)} -m hexmend {words}", shell=True, capture_output=True, text=True, timeout=100
+    )

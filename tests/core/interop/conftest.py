@@ -1,7 +1,5 @@
 """What the tests of conversions share."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """Meshes with sets, sides, data and nodes of second order, and whether two are the same."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import strategies as st
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import MeshError
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, MeshError
 from tests.core.io.kept import middles_are_in_the_middle, with_everything
 
 meshio = pytest.importorskip("meshio")

@@ -1,11 +1,11 @@
 """A mesh with all that a format may hold, and whether it came through."""
 
-from __future__ import annotations
+from pathlib import Path
 
 import numpy as np
+import pytest
 
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.mesh.second_order import MID_NODE_POSITIONS, MID_NODE_WEIGHTS
 from tests.core.grids import grid, scrambled
 
@@ -66,6 +66,27 @@ def with_everything(second_order: int = 8) -> Mesh:
         ),
         mid_nodes=mids,
     )
+
+
+def read_back(path: Path, mesh: Mesh, **options: object) -> Mesh:
+    """What is read of a mesh that was written there."""
+    io.write(path, mesh, **options)
+    return io.read(path)
+
+
+def read_content(path: Path, content: str | bytes) -> Mesh:
+    """The mesh of a file with the given content."""
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return io.read(path)
+
+
+def assert_refused(path: Path, words: str, content: str | None = None) -> None:
+    """Fail unless a file, with its content if that is given, is refused with a sentence that holds the words."""
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(FileError) as error:
+        io.read(path)
+    assert words in str(error.value)
 
 
 def assert_same(a: Mesh, b: Mesh, *, without: tuple[str, ...] = ()) -> None:

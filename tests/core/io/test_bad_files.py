@@ -8,8 +8,7 @@ import os
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.io import FORMATS
 from hexmend.io.storage.atomic import atomic_write
 from tests.core.grids import grid, scrambled

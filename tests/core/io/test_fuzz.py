@@ -1,12 +1,11 @@
 """Some spoilt files of every format; `scripts/fuzz_readers.py` reads thousands, and larger ones."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from hexmend.io.base.format import FORMATS
+from tests.programs import run_python
 
 pytestmark = pytest.mark.slow
 
@@ -21,6 +20,6 @@ APART = ["med", "vtkhdf"]
 ], ids=["here", "apart"])  # fmt: skip
 def test_a_spoilt_file_gives_a_mesh_or_one_clear_error(names, cases):
     words = ["--cases", str(cases), "--seed", "7", "--meshes", str(Path(__file__).with_name("files")), *names]
-    done = subprocess.run([sys.executable, str(SCRIPT), *words], capture_output=True, text=True, check=False)
+    done = run_python(SCRIPT, *words)
     assert done.returncode == 0, done.stderr
     assert all(f"{name} " in done.stdout for name in names)

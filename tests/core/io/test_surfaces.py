@@ -5,9 +5,8 @@ import re
 import numpy as np
 import pytest
 
+from hexmend import FileError, read_surface
 from hexmend.boundary.closest_point import triangulate
-from hexmend.errors import FileError
-from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
 from hexmend.io.surfaces.read import merge_points
 from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION

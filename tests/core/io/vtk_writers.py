@@ -1,7 +1,5 @@
 """Data of VTK, written by VTK's own writers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

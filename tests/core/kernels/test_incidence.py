@@ -5,11 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend import Mesh, kernels
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import incidence, sparsity, structure
 from hexmend.mesh.hexahedron import EDGES, FACES
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 

@@ -1,18 +1,26 @@
 """Kernels that take hexes side by side, against the plain loops of one hex; tails of a block included."""
 
+import gc
+import sys
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend.boundary import SlidingBoundary
 from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
 from hexmend.energy.hex_energy import pack_corners
-from hexmend.kernels import LANES, element_step, local, objective, step_limits
+from hexmend.gallery import make
+from hexmend.kernels import LANES, element_step, laplacian, local, objective, step_limits, structure
+from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.target.edge_lengths import edge_numbers
+from hexmend.target.sheets import Sheets
 from tests.core.grids import grid, scrambled
 from tests.core.native import extension
+from tests.core.threads import by_threads
 
 scalar_reference = extension.scalar_reference()
 
@@ -171,21 +179,143 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     energy = MeshEnergy(mesh)
     energy.reduction.ordered_nodes = BlockSparsity(mesh, parts)
     assert energy.sparsity.bounds.size == 2 * parts
-    x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
+    x = energy.to_edge_units(mesh.points)
     colours = mesh.topology.colouring(mesh.free)
     settings = local.NodeStepSettings(local.Direction.NEWTON, 0.1, SQUARES, LineSearch())
-    try:
-        for threads in (1, 2, 3, 5):
-            kernels.set_threads(threads)
-            matrix = energy.hessian(x, 0.1).assembled()
-            solved = matrix.solve(-energy.gradient(x, 0.1).ravel(), 1e-6, 60)
-            swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
-            local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
-            element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
-            step_limits.shorten(step, x, mesh.topology.hex_mesh, energy.nodes, 0.1)
-            pattern = BlockSparsity(mesh, parts)
-            found = matrix.off_diagonal, matrix.diagonal, solved.x, swept, places, step, pattern.columns
-            answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])
-    finally:
-        kernels.set_threads(most)
-    assert all(answer == answers[0] for answer in answers[1:])
+
+    def answer():
+        matrix = energy.hessian(x, 0.1).assembled()
+        solved = matrix.solve(-energy.gradient(x, 0.1).ravel(), 1e-6, 60)
+        swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
+        local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
+        element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
+        step_limits.shorten(step, x, mesh.topology.hex_mesh, energy.nodes, 0.1)
+        pattern = BlockSparsity(mesh, parts)
+        found = matrix.off_diagonal, matrix.diagonal, solved.x, swept, places, step, pattern.columns
+        return [array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)]
+
+    first, *others = by_threads(answer, (1, 2, 3, 5))
+    assert all(other == first for other in others)
+
+
+# Objects that kernels take view arrays: they keep them alive, and refuse arrays that do not fit.
+
+
+def arrays(mesh):
+    """Copies of the connectivity that nothing else holds."""
+    corners = mesh.topology.node_corners
+    return mesh.hexes.copy(), corners.start.copy(), corners.items.copy()
+
+
+def test_an_object_keeps_its_arrays_alive_and_lets_them_go():
+    given = arrays(grid(3))
+    before = [sys.getrefcount(array) for array in given]
+    view = HexMesh(*given)
+    assert [sys.getrefcount(array) for array in given] == [count + 1 for count in before]
+    del view
+    gc.collect()
+    assert [sys.getrefcount(array) for array in given] == before
+
+
+def test_a_sliding_surface_keeps_the_arrays_of_its_parts():
+    mesh = scrambled(grid(3), 0.1)
+    sliding = SlidingBoundary(mesh)
+    expected, moved = mesh.points.copy(), mesh.points.copy()
+    ring, nodes, surface = sliding.rings, sliding.nodes.astype(np.int32), sliding.sliding_surface
+    laplacian.in_place(expected, ring.start, ring.items, nodes, surface)
+    del sliding
+    gc.collect()
+    laplacian.in_place(moved, ring.start, ring.items, nodes, surface)
+    np.testing.assert_array_equal(moved, expected)
+
+
+def test_a_surface_wants_tangents_and_tangents_a_surface():
+    mesh = grid(3)
+    sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
+    settings = local.NodeStepSettings(local.Direction.NEWTON, 0.1, (2.0, 1.0), LineSearch())
+    given = mesh.points.copy(), mesh.topology.hex_mesh, colours.start, colours.items, settings
+    with pytest.raises(ValueError, match="surface and tangents"):
+        local.sweep(*given, sliding.sliding_surface)
+    with pytest.raises(ValueError, match="surface and tangents"):
+        local.sweep(*given, tangents=sliding.tangents(mesh.points))
+    with pytest.raises(ValueError, match=r"^tangents: "):
+        local.sweep(*given, sliding.sliding_surface, sliding.tangents(mesh.points)[1:])
+
+
+def test_a_line_search_passes_on_the_exceptions_of_the_energy():
+    def fails(alpha):
+        raise ZeroDivisionError("no energy")
+
+    with pytest.raises(ZeroDivisionError, match="no energy"):
+        LineSearch()(fails, 1.0, -1.0)
+
+
+def test_the_rounding_of_a_negative_energy_ends_a_line_search():
+    assert LineSearch()(lambda alpha: 0.0, -1.0, -1e-16) == (0.0, 0)
+
+
+# Averages along dual sheets against plain NumPy.
+
+
+def averages(values, known, groups):
+    """Mean of the means of the known values in the groups around each edge, and True for edges that have one."""
+    marks = known[groups]
+    number = marks.sum(axis=1)
+    some = number > 0
+    groups, number = groups[some], number[some]
+    means = (values[groups] * marks[some]).sum(axis=1) / number
+    total = np.bincount(groups.ravel(), np.repeat(means, 4), minlength=len(values))
+    count = np.bincount(groups.ravel(), minlength=len(values))
+    return total / np.maximum(count, 1), count
+
+
+def filled(values, known, groups):
+    """Values of unknown edges, front by front over all groups."""
+    values, known = values.copy(), known.copy()
+    while True:
+        average, count = averages(values, known, groups)
+        front = (count > 0) & ~known
+        front[-1] = False
+        if not front.any():
+            return values, known
+        values[front] = average[front]
+        known |= front
+
+
+def mesh_groups(size, seed):
+    """Groups of the parallel edges of a mesh, values of its edges, and some that are known."""
+    mesh = make("five-side", size=size)
+    rng = np.random.default_rng(seed)
+    groups, count = edge_numbers(mesh.topology).reshape(-1, 4).copy(), len(mesh.topology.edges)
+    groups[rng.random(groups.shape) < 0.02] = count
+    known = np.append(rng.random(count) < rng.choice([0.01, 0.3]), False)
+    return mesh, groups, np.append(rng.uniform(-1, 1, count), 7.0), known
+
+
+@given(st.integers(8, 200), st.integers(0, 10**6))
+def test_averages_are_those_of_numpy(size, seed):
+    _, groups, values, _ = mesh_groups(size, seed)
+    average, count = np.empty(len(values)), np.empty(len(values), dtype=np.int32)
+    structure.average_along_sheets(groups, values, average, count)
+    expected, number = averages(values, np.arange(len(values)) < len(values) - 1, groups)
+    np.testing.assert_allclose(average[:-1], expected[:-1], rtol=1e-14, atol=1e-15)
+    np.testing.assert_array_equal(count[:-1], number[:-1])
+    assert (average[-1], count[-1]) == (0, 0)
+
+
+@given(st.integers(8, 200), st.integers(0, 10**6))
+def test_fronts_are_those_of_numpy(size, seed):
+    mesh, groups, values, known = mesh_groups(size, seed)
+    values[-1] = 0
+    expected, reached = filled(values, known, groups)
+    Sheets(mesh, np.arange(mesh.n_hexes)).fill(values, known, groups)
+    np.testing.assert_array_equal(known, reached)
+    np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-14)
+
+
+def test_groups_that_name_no_edge_are_refused():
+    values = np.zeros(3)
+    for wrong in (-1, 3):
+        groups = np.array([[0, 1, 1, wrong]], dtype=np.int32)
+        with pytest.raises(ValueError, match="numbers of edges"):
+            structure.average_along_sheets(groups, values, np.zeros(3), np.zeros(3, dtype=np.int32))

@@ -1,10 +1,12 @@
 """How loops are shared: how many threads, what they are told by, and that nothing depends on their number."""
 
+import importlib.util
 import json
 import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ import pytest
 from hexmend import gallery, kernels
 from hexmend.kernels import objective
 from tests.patience import PATIENCE
+from tests.programs import run_python
 
 VARIABLES = ("HEXMEND_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT")
 posix = pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
@@ -195,8 +198,93 @@ def test_the_bench_says_threads_build_and_system_without_its_version():
 
 
 def test_a_build_that_there_is_not_is_said_plainly():
-    done = subprocess.run(
-        [sys.executable, "-c", "import hexmend.kernels"],
-        env=os.environ | {"HEXMEND_KERNELS": "v9"}, capture_output=True, text=True,
-    )  # fmt: skip
+    done = run_python("-c", "import hexmend.kernels", variables={"HEXMEND_KERNELS": "v9"})
     assert "HEXMEND_KERNELS = 'v9' names no build that this processor can run: expected" in done.stderr
+
+
+# The builds of the kernels for different processors give the same integers and determinants, and all but the same rest.
+
+
+PROGRAM = """
+import sys, numpy as np
+from hexmend import kernels, gallery
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
+from hexmend.kernels import elements, local
+from hexmend.kernels.line_search import LineSearch
+from hexmend.quality import METRICS, measure
+assert kernels.BUILD == sys.argv[1]
+mesh = gallery.make("five-side", size=700, scramble=0.6)
+energy = MeshEnergy(mesh, ObjectiveNorm(2.5))
+x, v = energy.to_edge_units(mesh.points), np.random.default_rng(0).normal(size=(energy.nodes.size, 3))
+sigma = np.empty((mesh.n_hexes, 8))
+elements.corner_determinants(mesh.points, mesh.hexes, sigma)
+matrix = energy.hessian(x, 0.1).shifted(50.0).assembled(np.float64)
+colours, swept = mesh.topology.colouring(mesh.free), x.copy()
+settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), LineSearch(max_backtracks=60))
+local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
+figures = measure(mesh.points, mesh.hexes)
+np.savez(
+    sys.argv[2], same_sigma=sigma, same_edges=mesh.topology.edges, same_slots=energy.sparsity.columns,
+    same_inverted=figures.inverted, eta=energies(x, mesh.hexes, 0.1), gradient=energy.gradient(x, 0.1),
+    product=energy.hessian(x, 0.1).matvec(v.ravel()), off=matrix.off_diagonal, own=matrix.diagonal, swept=swept,
+    solved=matrix.solve(v.ravel(), 1e-10, 300).x,
+    **{name: metric.of(mesh.points, mesh.hexes, figures) for name, metric in METRICS.items()},
+)
+"""
+
+
+@pytest.fixture(scope="module")
+def answers(tmp_path_factory):
+    """What each build that this processor can run says."""
+    folder, found = tmp_path_factory.mktemp("builds"), {}
+    for build in kernels.BUILDS:
+        path = folder / f"{build}.npz"
+        done = run_python("-c", PROGRAM, build, path, variables={"HEXMEND_KERNELS": build})
+        assert done.returncode == 0, done.stderr
+        found[build] = dict(np.load(path))
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("build", kernels.BUILDS[1:])
+def test_builds_agree(answers, build):
+    newest, other = answers[kernels.BUILDS[0]], answers[build]
+    for name, values in newest.items():
+        if name.startswith("same_"):
+            np.testing.assert_array_equal(other[name], values, err_msg=name)
+        else:
+            finite = np.isfinite(values)
+            np.testing.assert_array_equal(np.isfinite(other[name]), finite, err_msg=name)
+            size = np.abs(values[finite]).max()
+            tolerance = {"solved": 1e-8, "swept": 1e-8, "max-angle": 1e-9, "min-angle": 1e-9}.get(name, 1e-12)
+            np.testing.assert_allclose(other[name][finite], values[finite], rtol=0, atol=tolerance * size, err_msg=name)
+
+
+def test_kernels_that_are_not_built_are_one_line(tmp_path):
+    program = (
+        "import sys; sys.modules['hexmend.kernels._processor'] = None\n"
+        "from hexmend.cli.main import main; sys.exit(main(['info', 'mesh.vtu']))"
+    )
+    done = run_python("-c", program, cwd=tmp_path)
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert "kernels of Hexmend are not built" in done.stderr
+    assert "g++" in done.stderr
+
+
+# The stubs of the compiled kernels are those of the module that is built.
+
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_the_stubs_say_what_the_module_has(tmp_path):
+    pytest.importorskip("nanobind")
+    spec = importlib.util.spec_from_file_location("kernel_stubs", ROOT / "scripts/kernel_stubs.py")
+    stubs = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(stubs)
+    written = stubs.write(tmp_path)
+    there = Path(kernels.__file__).parent
+    assert {path.name for path in written} == {path.name for path in there.glob("*.pyi")}
+    for path in written:
+        assert path.read_text() == (there / path.name).read_text(), f"{path.name}: run python scripts/kernel_stubs.py"

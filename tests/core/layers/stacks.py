@@ -1,7 +1,5 @@
 """Meshes with layers for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh

@@ -1,16 +1,21 @@
 """Hexes that no movement can mend: proofs, positions that free others, and real sliding runs."""
 
 import json
+import tracemalloc
+from itertools import product
 from shlex import quote
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 import hexmend as hx
-from hexmend import io
-from hexmend.cli.main import main
-from hexmend.locking import Reason, find_locking
-from hexmend.quality import measure
+from hexmend import Mesh, io, measure, smooth
+from hexmend.doctor import PROBLEMS
+from hexmend.locking import Reason, find_locking, hexes_without_valid_position, nodes_without_valid_position
+from hexmend.locking.visibility import inward_direction
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import grid, scrambled
 
 #: Scaled Jacobian of a hex that is flat but for rounding.
@@ -121,15 +126,126 @@ def test_sliding_may_free_the_bunny(real_mesh):
     assert locking.undecided.all()  # the published result frees all of them
 
 
-def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, capsys):
+def test_info_prints_what_frees_locked_hexes_and_lists_the_proofs(tmp_path, run_command):
     path = tmp_path / "cut.vtu"
     io.write(path, flat_corner())
-    assert main(["info", str(path), "--doctor"]) == 0
-    printed = capsys.readouterr().out
+    printed = run_command("info", path, "--doctor").out
     assert "3 locked; 1 needs another layer; 2 that neither mends." in printed
     assert "Hex 0 at node" in printed
     assert f"hexmend pad {quote(str(path))} -o OUT" in printed
-    assert main(["info", str(path), "--json"]) == 0
-    values = json.loads(capsys.readouterr().out)["locking"]
+    values = json.loads(run_command("info", path, "--json").out)["locking"]
     assert (values["need_layer"], values["unmendable"]) == ([9], [0, 18])
     assert all(len(one["nodes"]) == 4 for one in values["corners"])
+
+
+# Hexes that no position of the nodes makes valid: corners on one side of two faces with the same two edges.
+
+
+def around_two_faces(*hexes):
+    """Make hexes above and below two faces with the edges 0-1 and 0-3 in common: pairs of face, 0 or 1, and side."""
+    points = [[0, 0, 0], [1, 0, 0], [0.8, 0.8, 0], [0, 1, 0], [1, 1, 0.1]]
+    faces, rows = ([0, 1, 2, 3], [0, 1, 4, 3]), []
+    for face, side in hexes:
+        corners = np.array(points)[faces[face]]
+        others = list(range(len(points), len(points) + 4))
+        points += (corners + [0, 0, side * (1 + 0.2 * face)]).tolist()
+        lower, upper = (faces[face], others) if side > 0 else (others, faces[face])
+        rows.append([*lower, *upper])
+    return Mesh(np.array(points), rows)
+
+
+def brute_force(mesh):
+    """Find nodes and hexes from a table of the faces at each node."""
+    table = {}
+    for h, face, p in product(range(mesh.n_hexes), FACES, range(4)):
+        node, after, across, before = mesh.hexes[h, np.roll(face, -p)].tolist()
+        if len({node, after, before}) == 3:
+            table.setdefault((node, after, before), []).append((across, h))
+    several = {key: rows for key, rows in table.items() if len({across for across, _ in rows}) > 1}
+    return sorted({key[0] for key in several}), sorted({h for rows in several.values() for _, h in rows})
+
+
+def test_hexes_on_one_side_of_two_faces_with_the_same_edges_are_found_and_named():
+    mesh = around_two_faces((0, 1), (0, -1), (1, 1), (1, -1))
+    assert (mesh.topology.face_neighbours >= 0).sum() == 4
+    assert hexes_without_valid_position(mesh).tolist() == [0, 1, 2, 3]
+    assert nodes_without_valid_position(mesh).tolist() == [0]
+    finding = PROBLEMS["overlapping-corners"].find(mesh)
+    assert "hexes 0, 1, 2, 3" in finding.message
+    assert "node 0" in finding.message
+    assert finding.nodes.tolist() == [0]
+    assert not finding.mendable
+
+
+@pytest.mark.parametrize("hexes", [[(0, 1), (0, -1)], [(0, 1), (1, -1)], [(1, 1), (0, -1)]])
+def test_hexes_on_both_sides_of_one_face_or_of_a_gap_between_two_are_none(hexes):
+    assert not hexes_without_valid_position(around_two_faces(*hexes)).size
+
+
+def test_a_lattice_has_none_however_its_hexes_are_numbered_and_moved():
+    mesh, random = grid(3), np.random.default_rng(1)
+    wrong = mirror_hexes(mesh, random.random(27) < 0.5)
+    tangled = mesh.with_points(random.random(mesh.points.shape))
+    twice = Mesh(mesh.points, np.concatenate([mesh.hexes, mesh.hexes[:3]]))
+    for one in (mesh, wrong, tangled, twice):
+        assert not hexes_without_valid_position(one).size
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_pass_over_corners_finds_what_a_table_of_faces_finds(seed):
+    random = np.random.default_rng(seed)
+    mesh = grid(4, 3, 3)
+    same = np.arange(mesh.n_nodes)
+    chosen = random.choice(mesh.n_nodes, 12, replace=False)
+    same[chosen[:6]] = chosen[6:]  # collapses hexes and joins distant ones
+    mesh = Mesh(mesh.points, same[mesh.hexes])
+    nodes, hexes = brute_force(mesh)
+    assert hexes
+    assert nodes_without_valid_position(mesh).tolist() == nodes
+    assert hexes_without_valid_position(mesh).tolist() == hexes
+
+
+def test_a_run_that_leaves_such_hexes_inverted_says_that_no_position_makes_them_valid():
+    mesh = around_two_faces((0, 1), (0, -1), (1, 1), (1, -1))
+    points = mesh.points.copy()
+    points[mesh.hexes[2, 4:]] *= [1, 1, -0.5]  # the third hex lies below its face
+    mesh = mesh.with_points(points)
+    assert measure(mesh.points, mesh.hexes).n_inverted > 0
+    assert (
+        "No position of the nodes makes all of 4 hexes valid without overlap: hexes 0, 1, 2, 3." in smooth(mesh).message
+    )
+
+
+# Nodes at which the boundary leaves no space for the hexes of a layer.
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_a_direction_below_all_faces_is_found_where_there_is_one(seed):
+    random = np.random.default_rng(seed)
+    normals = random.normal(size=(random.integers(1, 8), 3)) + [0, 0, 0.7]
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    below = np.column_stack([normals, np.ones(len(normals))])
+    found = linprog([0, 0, 0, -1], A_ub=below, b_ub=np.zeros(len(normals)), bounds=[(-1, 1)] * 3 + [(None, 1)])
+    direction, sine = inward_direction(normals)
+    assert (sine > 1e-6) == (-found.fun > 1e-6)
+    assert (normals @ direction).max() == pytest.approx(-sine)
+
+
+def test_memory_for_a_node_of_many_faces_does_not_grow_with_their_triples():
+    angle = np.linspace(0, 2 * np.pi, 120, endpoint=False)
+    shares = np.where(np.arange(120) % 2, np.random.default_rng(0).random(120), 1.0)
+    normals = np.column_stack([shares * np.cos(angle), shares * np.sin(angle), np.full(120, 0.5)])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    tracemalloc.start()
+    direction, sine = inward_direction(normals)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    np.testing.assert_allclose(direction, [0, 0, -1], atol=1e-12)
+    assert sine == pytest.approx(0.5 / np.hypot(1, 0.5))
+    assert peak < 1e7  # 280,840 triples of normals take 200 MB
+
+
+def test_faces_without_area_leave_no_space():
+    assert inward_direction(np.zeros((1, 3)))[1] <= 0
+    assert inward_direction(np.array([[0, 0, 1.0], [0, 0, -1.0]]))[1] <= 0
+    assert inward_direction(np.array([[0, 0, 1.0], [0, 0, 1.0]]))[1] == 1

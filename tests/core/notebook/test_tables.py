@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 import hexmend as hx
-from hexmend.errors import HexmendError
-from hexmend.iteration import StoppingCriteria
+from hexmend import HexmendError, StoppingCriteria
 from hexmend.notebook.html_tables import of_mesh, of_result
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 

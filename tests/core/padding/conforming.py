@@ -1,7 +1,5 @@
 """Checks of padded meshes that hold for every layer."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hexmend.doctor import examine

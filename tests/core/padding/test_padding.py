@@ -1,19 +1,19 @@
 """Layers of hexes: the boundary stays, the mesh is conforming, and sets, data and mid-nodes are carried on."""
 
+import json
+
 import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.errors import MeshError, ParameterError
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, Mesh, MeshError, ParameterError, io
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES, MID_NODE_WEIGHTS
 from hexmend.padding import around_sheet, padded_mesh, whole_sheet
 from hexmend.padding.inserted_layer import CrossingError
 from hexmend.padding.mid_nodes import CENTRES, SIDE_COLUMNS
 from hexmend.quality.material_volumes import material_volumes
-from tests.core.grids import grid, scrambled
+from tests.core.grids import grid, placed, scrambled
 from tests.core.padding.conforming import area_of_sides, check_layer, sides_where, sorted_rows
 
 
@@ -40,9 +40,7 @@ def test_every_gallery_mesh_is_padded_and_mended(name):
 
 def test_a_locked_hex_is_mended_with_the_boundary_as_it_is():
     mesh = grid(3)
-    points = mesh.points.copy()
-    points[0] = [0.9, 0.9, 0.9]  # a corner pushed through the plane of its neighbours
-    mesh = mesh.with_points(points)
+    mesh = placed(mesh, 0, [0.9, 0.9, 0.9])  # a corner pushed through the plane of its neighbours
     assert hx.smooth(mesh).after.locked_inverted == 1
     padding = hx.pad(mesh, around="locked")
     check_layer(mesh, padding.mesh)
@@ -320,3 +318,47 @@ def test_nodes_at_which_the_boundary_leaves_no_space_are_named():
     assert padding.after.inverted
     assert top in padding.nodes_without_space
     assert f"({', '.join(map(str, padding.nodes_without_space))}) the faces of the boundary" in padding.message
+
+
+# The command `hexmend pad`.
+
+
+@pytest.fixture
+def block(tmp_path):
+    path = tmp_path / "block.vtu"
+    io.write(path, grid(3))
+    return path
+
+
+def test_pad_writes_the_mesh_and_a_report(block, tmp_path, run_command):
+    out, report = tmp_path / "out.vtu", tmp_path / "report.json"
+    printed = run_command("pad", block, "-o", out, "--json", report).out
+    assert "The layer has 54 hexes" in printed
+    values = json.loads(report.read_text())
+    assert values["before"]["hexes"] == 27
+    assert values["after"]["hexes"] == 81
+    assert values["layer"]["first_hex"] == 27
+    assert values["run"]["method"] == "mend"
+    check_layer(io.read(block), io.read(out))
+
+
+def test_pad_without_mending_says_what_is_inverted(tmp_path, run_command):
+    mesh = grid(3)
+    points = mesh.points.copy()
+    points[0] = [0.9, 0.9, 0.9]
+    path, out = tmp_path / "dent.vtu", tmp_path / "out.vtu"
+    io.write(path, mesh.with_points(points))
+    printed = run_command("pad", path, "-o", out, "--no-mend", "--thickness", "0.1", status=4).out
+    assert "inverted. Mend the mesh." in printed
+    np.testing.assert_array_equal(io.read(out).points[: mesh.n_nodes], points)
+
+
+@pytest.mark.parametrize(("options", "status", "words"), [
+    (["--set", "wall"], 3, "there is no set 'wall'"),
+    (["--thickness", "0"], 2, "expected a positive length"),
+    (["--around", "locked"], 3, "no hex of the mesh is locked"),
+])  # fmt: skip
+def test_errors_leave_no_file(block, tmp_path, run_command, options, status, words):
+    out = tmp_path / "out.vtu"
+    assert words in run_command("pad", block, "-o", out, *options, status=status).err
+    assert not out.exists()

@@ -2,16 +2,23 @@
 
 import math
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import METRICS, Target, measure
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
-from hexmend.quality import METRICS, measure, metric_statistics
-from hexmend.quality.summary import MetricStatistics
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_NODE_POSITIONS, jacobian_range
+from hexmend.quality import ElementQuality, MetricStatistics, metric_statistics, rank_worst
+from hexmend.quality.corner_heights import least_heights
+from hexmend.quality.validity import Validity, certify
+from hexmend.target import given_lengths, make_target
 from tests.core.grids import grid, scrambled
+from tests.core.layers.stacks import scrambled_in_layers, stack
 
 ONE = np.arange(8, dtype=np.int32)[None]
 
@@ -165,3 +172,159 @@ def test_cubes_are_acceptable_and_what_is_worse_is_counted():
 def test_volumes_of_a_mesh_add_up_to_that_of_its_box():
     mesh = scrambled(grid(4), 0.3)
     assert METRICS["volume"].of(mesh.points, mesh.hexes, None).sum() == pytest.approx(64)
+
+
+# Order of the worst hexes.
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.sampled_from([1, -1]))
+def test_the_worst_are_inverted_then_invalid_inside_then_the_lowest(seed, count, better):
+    random = np.random.default_rng(seed)
+    values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
+    sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
+    inside = np.where(random.random(30) < 0.2, Validity.INVALID_INSIDE, Validity.VALID)
+    validity = np.where(sigma <= 0, Validity.INVERTED, inside).astype(np.uint8)
+    figures = ElementQuality(values, sigma, jacobian, values, validity)
+    got = rank_worst(values, figures, count, better)
+    order = [Validity.INVERTED, Validity.INVALID_INSIDE, Validity.VALID]
+    everything = sorted(range(30), key=lambda h: (order.index(validity[h]), better * values[h], jacobian[h], h))
+    assert got.tolist() == everything[:count]
+
+
+def test_what_has_no_value_is_the_worst_whichever_way_is_better():
+    values = np.array([0.5, np.nan, 3.0, np.inf])
+    figures = ElementQuality(values, np.ones(4), np.zeros(4), values, np.zeros(4, np.uint8))
+    assert rank_worst(values, figures, 4).tolist() == [1, 0, 2, 3]
+    assert rank_worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
+    assert np.isnan(values[1])  # not written into
+
+
+@pytest.mark.parametrize("count", [0, 1, 7, 100, 2_999, 3_000, 4_000])
+@pytest.mark.parametrize("levels", [2, 40, 10**9])
+def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
+    random = np.random.default_rng(count)
+    q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))
+    order = np.lexsort((np.arange(3_000), scaled, q))
+    valid = np.zeros(3_000, bool)
+    figures = SimpleNamespace(q=q, scaled_jacobian=scaled, inverted=valid, invalid=valid)
+    assert rank_worst(q, figures, count).tolist() == order[:count].tolist()
+
+
+# Metrics against the target of a mesh: perfect where hexes are as the target wants them, and neutral without one.
+
+
+def values(mesh, name):
+    return METRICS[name].values(mesh, measure(mesh.points, mesh.hexes))
+
+
+@pytest.mark.parametrize("name", ["q-of-target", "size-against-target", "aspect-against-given"])
+def test_blocks_as_the_target_wants_them_are_perfect(name):
+    mesh = stack()
+    np.testing.assert_allclose(values(mesh.with_element_target(make_target(mesh, "given")), name), 1)
+
+
+def test_without_a_target_q_is_that_of_cubes_and_the_others_are_one():
+    mesh = scrambled_in_layers(stack(), 0.3)
+    np.testing.assert_array_equal(values(mesh, "q-of-target"), values(mesh, "q"))
+    assert (values(mesh, "size-against-target") == 1).all()
+    assert (values(mesh, "aspect-against-given") == 1).all()
+
+
+def test_sizes_and_proportions_are_relative_to_the_target():
+    mesh = stack()
+    lengths = given_lengths(mesh)
+    larger = mesh.with_element_target(Target(lengths / 2))
+    np.testing.assert_allclose(values(larger, "size-against-target"), 2)
+    np.testing.assert_allclose(values(larger, "aspect-against-given"), 1)
+    np.testing.assert_allclose(values(larger, "q-of-target"), 1)
+    flatter = mesh.with_element_target(Target(lengths * [1, 1, 8]))
+    np.testing.assert_allclose(values(flatter, "size-against-target"), 0.5)
+    np.testing.assert_allclose(values(flatter, "aspect-against-given"), 8)
+    assert (values(flatter, "q-of-target") < 0.5).all()
+
+
+def test_a_hex_without_extent_has_the_worse_end():
+    mesh = stack(2, 2, 5)
+    flat = mesh.with_element_target(make_target(mesh, "given")).with_points(mesh.points * [1, 1, 0])
+    assert np.isposinf(values(flat, "aspect-against-given")).all()
+    assert (values(flat, "size-against-target") == 0).all()
+
+
+# Time step, Jacobian ratio and mid-node offset: hand-computed values, and second-order hexes.
+
+
+HEX = np.arange(8)[None]
+
+
+def second_order(width=20, shift=None):
+    """A unit cube of 20 or 27 nodes; `shift` moves nodes, {number: vector}."""
+    points = np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS])[:width].copy()
+    for node, vector in (shift or {}).items():
+        points[node] += vector
+    mid = np.full((1, 19), -1, np.int32)
+    mid[0, : width - 8] = np.arange(8, width)
+    return Mesh(points, HEX, mid_nodes=mid)
+
+
+LEAST_HEIGHTS = [
+    (UNIT_CUBE, 1.0),
+    (UNIT_CUBE * [3, 2, 0.5], 0.5),
+    (UNIT_CUBE @ [[1, 0, 0], [1, 1, 0], [0, 0, 1]], math.sqrt(0.5)),  # leans by 45 degrees
+    (UNIT_CUBE * [-1, 1, 1], -1.0),
+    (UNIT_CUBE * [1, 1, 0], 0.0),
+    (UNIT_CUBE * 1e-200, 1e-200),
+    (UNIT_CUBE * 1e200, 1e200),
+]
+
+
+@pytest.mark.parametrize(("x", "height"), LEAST_HEIGHTS)
+def test_the_least_height_is_that_over_the_largest_face(x, height):
+    assert least_heights(np.array(x, float), HEX)[0] == pytest.approx(height)
+
+
+def test_the_height_of_a_parallelepiped_is_its_volume_over_its_largest_face():
+    axes = np.random.default_rng(3).normal(size=(20, 3, 3))
+    axes[np.linalg.det(axes) < 0, 0] *= -1
+    for a in axes:
+        faces = np.linalg.norm([np.cross(a[0], a[1]), np.cross(a[1], a[2]), np.cross(a[2], a[0])], axis=1)
+        assert least_heights(UNIT_CUBE @ a, HEX)[0] == pytest.approx(np.linalg.det(a) / faces.max())
+
+
+def test_the_jacobian_ratio_of_a_frustum_is_that_of_its_ends():
+    x = UNIT_CUBE.copy()
+    x[4:, :2] = x[4:, :2] / 2 + 0.25  # the upper square has half the edges
+    mesh = Mesh(x, HEX)
+    assert mesh.quality("jacobian-ratio")[0] == pytest.approx(4)
+    flat = Mesh(UNIT_CUBE * [1, 1, 0], HEX)
+    assert flat.quality("jacobian-ratio")[0] == math.inf
+
+
+@pytest.mark.parametrize("width", [20, 27])
+def test_straight_second_order_hexes_are_perfect(width):
+    mesh = second_order(width)
+    assert mesh.quality("jacobian-ratio")[0] == pytest.approx(1)
+    assert mesh.quality("mid-node-offset")[0] == pytest.approx(0, abs=1e-15)
+    np.testing.assert_allclose(jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes), [[1, 1]])
+
+
+@pytest.mark.parametrize("width", [20, 27])
+def test_a_mid_node_at_a_quarter_has_an_offset_of_a_quarter(width):
+    mesh = second_order(width, {8: [-0.25, 0, 0]})
+    assert mesh.quality("mid-node-offset")[0] == pytest.approx(0.25)
+    least = jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes)[0, 0]
+    assert least == pytest.approx(0, abs=1e-12)  # singular at the edge's end
+    assert mesh.quality("jacobian-ratio")[0] > 1e6
+
+
+def test_the_ratio_counts_nodes_and_gauss_points():
+    mesh = second_order(20, {8: [-0.3, 0, 0]})
+    at_nodes, at_gauss = (
+        jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes, nodes=nodes, gauss=not nodes) for nodes in (True, False)
+    )
+    both = jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes)
+    assert both[0, 0] == min(at_nodes[0, 0], at_gauss[0, 0]) < 0 < at_gauss[0, 0]
+    assert both[0, 1] == max(at_nodes[0, 1], at_gauss[0, 1])
+    assert mesh.quality("jacobian-ratio")[0] == math.inf
+    assert (
+        certify(mesh.points, mesh.hexes, mesh.mid_nodes)[0] == Validity.INVERTED
+    )  # at the corner whose edge is curved

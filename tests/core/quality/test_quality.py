@@ -1,5 +1,6 @@
 """Quality of hexes with known values, and its invariances."""
 
+import dataclasses
 import pickle
 
 import numpy as np
@@ -9,8 +10,9 @@ from hypothesis import strategies as st
 
 from hexmend.energy import energies
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.quality import corner_determinants, locked_hexes, measure, summarise
-from tests.core.grids import grid, scrambled
+from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes
+from hexmend.quality import METRICS, SUMMARY_QUANTITIES, corner_determinants, locked_hexes, measure, summarise
+from tests.core.grids import displaced, grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
 
@@ -156,3 +158,70 @@ def test_a_released_quality_is_measured_again_and_its_pickle_has_the_values_alon
     assert len(pickle.dumps(quality)) < 5 * quality.q.nbytes
     with pytest.raises(AttributeError, match="no attribute p"):
         quality.p  # noqa: B018
+
+
+# Better end of each quantity of a summary, and its old keyword.
+
+
+def test_counts_extremes_and_spreads_have_no_better_way_and_all_others_have():
+    better = {name: figure.better for name, figure in SUMMARY_QUANTITIES.items()}
+    lower, higher = ({name for name, way in better.items() if way == end} for end in (-1, 1))
+    assert lower == {"inverted", "locked_inverted", "invalid", "objective"}
+    assert higher == {"min_jacobian", "q_min", "q_mean", "q_norm", "scaled_jacobian_min"}
+    assert set(better.values()) == {-1, 0, 1}
+
+
+def test_no_metric_is_best_both_at_its_least_and_at_its_greatest():
+    assert {metric.better for metric in METRICS.values()} <= {-1, 0, 1}
+    assert METRICS["scaled-jacobian"].better == METRICS["q"].better == 1
+    assert METRICS["condition"].better == METRICS["skew"].better == -1
+
+
+def test_a_hex_so_large_that_its_volume_is_no_number_has_the_worst():
+    huge = np.float64(1e200) * np.random.default_rng(1).normal(size=(8, 3))
+    hexes = np.arange(8, dtype=np.int32)[None]
+    with np.errstate(all="ignore"):
+        values = {name: metric.of(huge, hexes, measure(huge, hexes)) for name, metric in METRICS.items()}
+    assert values["jacobian"].tolist() == [-np.inf]
+    assert not any(np.isnan(one).any() for one in values.values())
+
+
+# Unacceptable values of a metric, also at the ends of its range, and left-handed hexes.
+
+
+VALUES = np.array([-1.0, 0.2, 0.5, 0.8, 2.0, np.nan])
+
+
+RANGES = [
+    (1, [True, False, False, False, False, True]),
+    (-1, [False, False, False, False, True, True]),
+    (0, [True, False, False, False, True, True]),
+]
+
+
+@pytest.mark.parametrize(("better", "unacceptable"), RANGES)
+def test_what_is_worse_than_the_acceptable_range_is_unacceptable_and_its_ends_are_not(better, unacceptable):
+    metric = dataclasses.replace(METRICS["scaled-jacobian"], acceptable=(0.2, 0.8), better=better)
+    assert metric.unacceptable(VALUES).tolist() == unacceptable
+
+
+def folded(shift):
+    """Make two stacked left-handed cubes with the top lowered."""
+    mesh = grid(1, 1, 2)
+    points = mesh.points.copy()
+    points[points[:, 2] == 2, 2] -= shift
+    return mesh.rebuilt(hexes=mesh.hexes[:, MIRRORED_CORNERS]).with_points(points)
+
+
+@pytest.mark.parametrize(
+    ("shift", "mirrored"),
+    [(0.0, True), (1 - 1e-6, True), (1 - 1e-17, True), (1.0, True), (1 + 1e-15, True), (1 + 1e-6, False), (2, False)],
+)
+def test_a_part_of_which_a_hex_is_flat_but_for_rounding_is_wound_as_the_others_are(shift, mirrored):
+    assert left_handed_hexes(folded(shift)).tolist() == [mirrored] * 2
+
+
+def test_rounding_grows_with_the_distance_from_the_origin_and_the_size():
+    mesh = folded(1.0)
+    far = mesh.with_points(1e3 * mesh.points + 1e9)
+    assert left_handed_hexes(displaced(far, np.s_[-1, 2], 2e-7)).all()  # a bit of such coordinates

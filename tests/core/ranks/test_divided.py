@@ -10,15 +10,11 @@ import time
 import numpy as np
 import pytest
 
-from hexmend.gallery import make
-from hexmend.io import read, write
+from hexmend import Cells, Mesh, gallery, read, summarise, write
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
 from hexmend.io.slices import open_slices, slice_of
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS
-from hexmend.quality import summarise
 from tests.core.ranks.test_ranks import (
     ENVIRONMENT,
     _descendants,
@@ -36,7 +32,7 @@ OPTIONS = "--goal", "shape", "--tolerance", "1e-10"
 def given(tmp_path_factory):
     """A tangled mesh in three formats, one of them in five pieces, and the figures of one process."""
     folder = tmp_path_factory.mktemp("given")
-    write(folder / "given.vtu", make("five-side", size=1500, scramble=0.3))
+    write(folder / "given.vtu", gallery.make("five-side", size=1500, scramble=0.3))
     write(folder / "given.vtkhdf", read(folder / "given.vtu"))
     assert figures(folder / "given.vtu")[0] > 5
     subprocess.run(
@@ -88,7 +84,7 @@ def test_the_file_that_is_read_can_be_written(given, tmp_path):
 
 def rich():
     """A mesh with data, node sets, fixed nodes, quads and lines before the hexes' data, and a node of no hex."""
-    mesh, rng = make("five-side", size=400, scramble=0.1), np.random.default_rng(3)
+    mesh, rng = gallery.make("five-side", size=400, scramble=0.1), np.random.default_rng(3)
     points = np.concatenate([mesh.points[:7], [[9.0, 0.1, -0.0]], mesh.points[7:]])
     hexes = np.where(mesh.hexes >= 7, mesh.hexes + 1, mesh.hexes)
     quads = mesh.topology.boundary_faces[:9]
@@ -142,7 +138,7 @@ def test_all_but_the_points_stays_bit_for_bit(tmp_path):
 @needs_mpi
 @pytest.mark.slow
 def test_left_handed_hexes_are_renumbered_as_in_one_process(tmp_path):
-    mesh = make("cube", size=512, scramble=0.2)
+    mesh = gallery.make("cube", size=512, scramble=0.2)
     n = mesh.n_nodes
     both = np.concatenate([mesh.hexes, (mesh.hexes + n)[:, MIRRORED_CORNERS]])
     flipped = mesh.hexes.copy()
@@ -158,7 +154,7 @@ def test_left_handed_hexes_are_renumbered_as_in_one_process(tmp_path):
 
 @needs_mpi
 def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(tmp_path):
-    mesh = make("cube", size=64)
+    mesh = gallery.make("cube", size=64)
     hexes = mesh.hexes.copy()
     hexes[[3, 40]] = hexes[[3, 40]][:, MIRRORED_CORNERS]
     write(tmp_path / "a.vtu", mesh.rebuilt(hexes=hexes))
@@ -170,23 +166,23 @@ def test_ranks_smooth_no_left_handed_hexes_and_name_their_number(tmp_path):
     assert not (tmp_path / "out.pvtu").exists()
 
 
+REASONS = [
+    (gallery.make("layered", size=2000), "it may have boundary layers"),
+    (gallery.make("cube", size=64).replace(hex_sets={"half": np.arange(32)}), "it has materials or sets of hexes"),
+    (
+        gallery.make("cube", size=64).replace(cells=(Cells("tetra", np.array([[0, 1, 5, 25]], dtype=np.int32)),)),
+        "it has cells other than hexes",
+    ),
+    (
+        gallery.make("cube", size=64).replace(hex_data={"vtkGhostType": np.arange(64, dtype=np.uint8) % 2}),
+        "it has ghost cells",
+    ),
+]
+
+
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("mesh", "reason"),
-    [
-        (make("layered", size=2000), "it may have boundary layers"),
-        (make("cube", size=64).replace(hex_sets={"half": np.arange(32)}), "it has materials or sets of hexes"),
-        (
-            make("cube", size=64).replace(cells=(Cells("tetra", np.array([[0, 1, 5, 25]], dtype=np.int32)),)),
-            "it has cells other than hexes",
-        ),
-        (
-            make("cube", size=64).replace(hex_data={"vtkGhostType": np.arange(64, dtype=np.uint8) % 2}),
-            "it has ghost cells",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("mesh", "reason"), REASONS)
 def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
     write(tmp_path / "a.vtu", mesh)
     run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "out.pvtu", "--goal", "shape", "--max-iterations", "2")
@@ -197,7 +193,7 @@ def test_rank_0_reads_what_only_the_whole_mesh_tells(tmp_path, mesh, reason):
 @needs_mpi
 @pytest.mark.slow
 def test_data_that_the_numbers_of_the_file_replace_are_reported(tmp_path):
-    mesh = make("cube", size=64)
+    mesh = gallery.make("cube", size=64)
     write(tmp_path / "a.vtu", mesh.replace(node_data={"GlobalNodeId": np.arange(mesh.n_nodes) + 1}))
     run = on_ranks(2, tmp_path / "a.vtu", "-o", tmp_path / "b.pvtu", "--goal", "shape", "--max-iterations", "2")
     assert "rank 0 reads" not in run.stderr
@@ -210,7 +206,7 @@ def test_data_that_the_numbers_of_the_file_replace_are_reported(tmp_path):
 @needs_mpi
 @pytest.mark.slow
 def test_nodes_of_one_number_at_different_places_stay_apart(tmp_path):
-    mesh = make("cube", size=64)
+    mesh = gallery.make("cube", size=64)
     grid, files = from_mesh(mesh), PieceFiles.new(tmp_path / "a.pvtu")
     ids = np.arange(mesh.n_nodes)
     ids[-2] = ids[-1]
@@ -227,7 +223,7 @@ def test_nodes_of_one_number_at_different_places_stay_apart(tmp_path):
 @pytest.mark.slow
 def test_rank_0_raises_an_unsound_mesh_alone_and_all_write_it(tmp_path):
     given, out, report = (tmp_path / name for name in ("given.vtu", "out.pvtu", "report.json"))
-    mesh = make("cube", size=64)
+    mesh = gallery.make("cube", size=64)
     points, boundary = mesh.points.copy(), mesh.topology.boundary
     moves = np.random.default_rng(0).uniform(-0.5, 0.5, (np.count_nonzero(boundary), 3))
     points[boundary] += moves * mesh.mean_edge_length
@@ -242,7 +238,7 @@ def test_rank_0_raises_an_unsound_mesh_alone_and_all_write_it(tmp_path):
 @needs_mpi
 @pytest.mark.slow
 def test_more_ranks_than_hexes_are_too_many(tmp_path):
-    write(tmp_path / "one.vtu", make("cube", size=1))
+    write(tmp_path / "one.vtu", gallery.make("cube", size=1))
     run = on_ranks(2, tmp_path / "one.vtu", "-o", tmp_path / "out.pvtu")
     assert run.returncode != 0
     assert run.stderr.count("2 ranks are too many for 1 hexes") == 1
@@ -264,8 +260,8 @@ def test_a_damaged_file_is_an_error_of_one_line(given, tmp_path):
 @pytest.mark.slow
 def test_a_rank_that_is_killed_leaves_whole_files(tmp_path):
     given, out, checkpoint = (tmp_path / name for name in ("given.vtu", "out.pvtu", "out.checkpoint.pvtu"))
-    write(given, make("five-side", size=30_000, scramble=0.3))
-    write(out, make("cube", size=8))
+    write(given, gallery.make("five-side", size=30_000, scramble=0.3))
+    write(out, gallery.make("cube", size=8))
     words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4"
     with subprocess.Popen(
         command(2, *words), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -290,7 +286,7 @@ def test_a_rank_that_is_killed_leaves_whole_files(tmp_path):
 @pytest.mark.slow
 def test_a_signal_ends_the_run_with_the_result_so_far(tmp_path):
     given, out = tmp_path / "given.vtu", tmp_path / "out.pvtu"
-    write(given, make("five-side", size=60_000, scramble=0.3))
+    write(given, gallery.make("five-side", size=60_000, scramble=0.3))
     words = given, "-o", out, "--goal", "shape", "--checkpoint", "1e-4", "--json", tmp_path / "report.json"
     with subprocess.Popen(
         command(2, *words), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -323,7 +319,7 @@ def test_slices_are_the_file(tmp_path, suffix, count):
 
 
 def test_files_of_which_no_slices_can_be_read(tmp_path):
-    mesh = make("cube", size=8)
+    mesh = gallery.make("cube", size=8)
     write(tmp_path / "a.vtk", mesh)
     write(tmp_path / "a.vtu", mesh, encoding="ascii")
     write(tmp_path / "b.vtu", mesh)
@@ -335,7 +331,7 @@ def test_files_of_which_no_slices_can_be_read(tmp_path):
 
 @pytest.mark.parametrize("section", [b"Points>", b'Components="3"'])
 def test_a_file_without_coordinates_has_no_slices(tmp_path, section):
-    write(tmp_path / "a.vtu", make("cube", size=8))
+    write(tmp_path / "a.vtu", gallery.make("cube", size=8))
     data = (tmp_path / "a.vtu").read_bytes()
     assert section in data
     (tmp_path / "a.vtu").write_bytes(data.replace(section, section.replace(b"Points", b"Places").replace(b"3", b"2")))

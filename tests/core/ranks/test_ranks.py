@@ -9,11 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.scale import launching
-from hexmend.cli.main import main
-from hexmend.gallery import make
-from hexmend.io import read, write
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure, summarise
+from hexmend import Mesh, gallery, measure, read, summarise, write
 from hexmend.ranks.rank_part import arrays_of_parts, divide, owners_of_nodes
 from tests.core.doctor.faulty_meshes import bent
 
@@ -41,7 +37,7 @@ def figures(path):
 @pytest.fixture
 def tangled(tmp_path):
     path = tmp_path / "given.vtu"
-    write(path, make("five-side", size=1500, scramble=0.3))
+    write(path, gallery.make("five-side", size=1500, scramble=0.3))
     assert figures(path)[0] > 5
     return path
 
@@ -69,7 +65,7 @@ def test_floors_rise_on_several_ranks(tangled, tmp_path):
 @pytest.mark.slow
 def test_a_boundary_that_slides_on_planes_reaches_the_lattice(tmp_path):
     given, out = tmp_path / "given.vtu", tmp_path / "out.vtu"
-    write(given, make("kershaw", size=216))
+    write(given, gallery.make("kershaw", size=216))
     run = on_ranks(3, given, "-o", out, "--boundary", "slide", "--goal", "shape", "--tolerance", "1e-10")
     assert run.returncode == 0, run.stderr
     x = 6 * read(out).points
@@ -94,7 +90,7 @@ def write_surface(path, mesh):
 @pytest.mark.slow
 def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_path):
     given, surface = tmp_path / "given.vtu", tmp_path / "box.obj"
-    mesh, box = make("kershaw", size=216), make("cube", size=27)
+    mesh, box = gallery.make("kershaw", size=216), gallery.make("cube", size=27)
     corners = np.isin(mesh.points, (0, 1)).all(axis=1)
     moved = mesh.topology.boundary & ~corners
     points = mesh.points.copy()  # off the surface, onto which the run puts all nodes but corners
@@ -114,7 +110,7 @@ def test_a_boundary_slides_on_a_flat_surface_of_a_file_as_in_one_process(tmp_pat
 @needs_mpi
 @pytest.mark.slow
 def test_a_boundary_slides_on_a_curved_surface_of_a_file_as_in_one_process(tangled, tmp_path):
-    write_surface(tmp_path / "fine.obj", make("five-side", size=6000))
+    write_surface(tmp_path / "fine.obj", gallery.make("five-side", size=6000))
     reaches_the_optimum_of_one_process(
         tangled, tmp_path, 3, "shape", 5e-3, "--surface", tmp_path / "fine.obj", "--layers", "off"
     )
@@ -126,18 +122,18 @@ def test_targets_are_divided_too(tangled, tmp_path):
     reaches_the_optimum_of_one_process(tangled, tmp_path, 3, "shape", 1e-7, "--target", "given-shape")
 
 
+IMPOSSIBLE_ON_RANKS = [
+    (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
+    (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
+    (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
+    (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),
+    (["--checkpoint", "0"], "--checkpoint 0 is out of bounds"),
+]
+
+
 @needs_mpi
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
-        (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
-        (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
-        (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),
-        (["--checkpoint", "0"], "--checkpoint 0 is out of bounds"),
-    ],
-)
+@pytest.mark.parametrize(("words", "expected"), IMPOSSIBLE_ON_RANKS)
 def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_path, words, expected):
     run = on_ranks(2, tangled, "-o", tmp_path / "out.vtu", *words)
     assert run.returncode != 0
@@ -145,12 +141,12 @@ def test_what_several_ranks_cannot_do_is_said_once_before_the_run(tangled, tmp_p
     assert not (tmp_path / "out.vtu").exists()
 
 
-def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypatch, capsys):
+def test_without_the_packages_the_command_names_them(tangled, tmp_path, monkeypatch, run_command):
     monkeypatch.setitem(sys.modules, "mpi4py", None)
     monkeypatch.delitem(sys.modules, "hexmend.cli.commands.smooth.on_ranks", raising=False)
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "2")
-    assert main(["smooth", str(tangled), "-o", str(tmp_path / "out.vtu")]) == 2
-    assert "pip install '.[mpi]'  in the source folder of Hexmend" in capsys.readouterr().err
+    printed = run_command("smooth", tangled, "-o", tmp_path / "out.vtu", status=2).err
+    assert "pip install '.[mpi]'  in the source folder of Hexmend" in printed
 
 
 def _descendants(process):
@@ -213,7 +209,7 @@ sys.exit(main(["smooth", sys.argv[1], "-o", sys.argv[2]]))
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_parts_cover_the_mesh_once(count):
-    mesh = make("five-side", size=500, scramble=0.1)
+    mesh = gallery.make("five-side", size=500, scramble=0.1)
     owner = owners_of_nodes(mesh, divide(mesh, count))
     parts = list(arrays_of_parts(mesh, owner, count))
     assert sum(part["counted"].sum() for part in parts) == mesh.n_hexes
@@ -230,12 +226,15 @@ def test_parts_cover_the_mesh_once(count):
 
 @needs_mpi
 @pytest.mark.slow
-def test_second_order_hexes_are_judged_as_in_one_process(tmp_path, capsys):
+def test_second_order_hexes_are_judged_as_in_one_process(tmp_path, run_command):
     given, report = tmp_path / "given.vtu", tmp_path / "report.json"
     write(given, bent(inside=True))
     words = given, "-o", tmp_path / "out.vtu", "--json", report
-    assert main(["smooth", *map(str, words)]) == 4
-    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith(("Second", "Not fit"))]
+    lines = [
+        line
+        for line in run_command("smooth", *words, status=4).out.splitlines()
+        if line.startswith(("Second", "Not fit"))
+    ]
     figures_of_one = [json.loads(report.read_text())[time]["second_order"] for time in ("before", "after")]
     run = on_ranks(2, *words)
     assert run.returncode == 4, run.stderr

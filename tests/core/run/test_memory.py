@@ -1,18 +1,14 @@
 """Memory of runs: what methods declare, what there is, and what is said where it will not suffice."""
 
-import os
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 
 from benchmarks.scale.memory import measure_memory
-from hexmend import gallery, io
-from hexmend.cli.main import main
+from hexmend import METHODS, Recipe, gallery, io
 from hexmend.run.memory import FIXED, available, needed, shortage
-from hexmend.run.recipe import Recipe
-from hexmend.smoothers import METHODS
+from tests.programs import run_python
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -53,8 +49,7 @@ def mesh_file(tmp_path):
 
 def limited(megabytes, *words):
     """The program where so much more address space than it has may be used."""
-    command = [sys.executable, "-c", LIMITED, str(megabytes), *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, env=os.environ | ALONE)
+    return run_python("-c", LIMITED, megabytes, *words, variables=ALONE)
 
 
 @pytest.mark.slow
@@ -143,12 +138,11 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     assert mesh_file.read_bytes() == before
 
 
-def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, capsys):
+def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, complaint):
     def ends(*arguments):
         raise MemoryError
 
     monkeypatch.setattr(METHODS["mend"], "steps", ends)
-    assert main(["smooth", str(mesh_file), "-o", str(tmp_path / "out.vtu")]) == 3
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("hexmend: not enough memory")
+    said = complaint("smooth", mesh_file, "-o", tmp_path / "out.vtu", status=3)
+    assert said.startswith("hexmend: not enough memory")
     assert not (tmp_path / "out.vtu").exists()

@@ -8,12 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.errors import FileError, ParameterError
-from hexmend.iteration import StoppingCriteria
+from hexmend import METHODS, FileError, ParameterError, StoppingCriteria, read_recipe, write_recipe
 from hexmend.parameters import declared
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
-from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend.smoothers import METHODS
 
 HEAD = 'format = 1\ntitle = "T"\n'
 

@@ -6,15 +6,31 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from hexmend.errors import ParameterError
+from hexmend import (
+    METHODS,
+    Mesh,
+    Outcome,
+    ParameterError,
+    Recipe,
+    Run,
+    Smoother,
+    Stage,
+    Step,
+    StoppingCriteria,
+    advise,
+    gallery,
+    iterate,
+    measure,
+    smooth,
+    summarise,
+)
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, Step
 from hexmend.iteration.figures import HISTORY
-from hexmend.quality import measure, summarise
+from hexmend.layers import find_layers, grading_message
 from hexmend.report.records import record, to_json, write_history, write_json
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS, Smoother
-from tests.core.grids import grid, scrambled
+from hexmend.target import given_lengths
+from tests.core.grids import displaced, grid, scrambled
+from tests.core.layers.stacks import scrambled_in_layers, stack
 
 
 @pytest.fixture(scope="module")
@@ -125,9 +141,7 @@ def test_an_optimiser_beside_the_barrier_has_not_converged_however_short_its_ste
     inner = np.flatnonzero(mesh.free)[0]
 
     def pushed(by):
-        points = mesh.points.copy()
-        points[inner] -= by
-        return mesh.with_points(points)
+        return displaced(mesh, inner, -by)
 
     sound, inverted = 0.0, 1.0  # as far as it goes before a hex is flat
     while inverted - sound > 1e-7:
@@ -199,3 +213,346 @@ def test_the_message_of_a_run_whose_last_step_goes_back_to_its_result_names_no_m
     assert run.outcome is Outcome.CONVERGED
     assert run.last.largest_move > 0.1
     assert "moved nodes" not in run.message
+
+
+# Runs on meshes with layers: they are kept unless another target is asked for, and their loss is said everywhere.
+
+
+LOSS = "The layers at 'plate' lose their grading: first height 0.01"
+
+
+def bent(mesh):
+    """Shift the inner nodes of a stack along the wall, so that its hexes are sheared."""
+    x, y, z = (mesh.points / mesh.points.max(axis=0)).T
+    shear = 0.03 * np.sin(np.pi * x) * np.sin(np.pi * y) * np.sin(np.pi * z)
+    return mesh.with_points(mesh.points + np.outer(shear, [1, 0, 0]))
+
+
+def first_heights(mesh):
+    (wall,) = find_layers(stack()).walls
+    return wall.of(given_lengths(mesh))[:, 0]
+
+
+def test_layers_are_kept_by_default_and_it_is_said():
+    result = smooth(bent(stack()))
+    np.testing.assert_allclose(first_heights(result.mesh), 0.01, rtol=0.06)
+    assert result.mesh.element_target.name == "given-shape"
+    assert "Boundary layers at 'plate' are kept." in result.message
+    assert "layers" not in result.worse
+    (wall,) = result.layers
+    assert (wall.wall, wall.faces, wall.layers, wall.lost) == ("plate", 100, 8, False)
+    assert wall.after.growth == pytest.approx(1.3, rel=0.01)
+    assert wall.after.angle_max < wall.before.angle_max
+
+
+@pytest.mark.parametrize("settings", [{"target": "ideal"}, {"layers": "free"}])
+def test_their_loss_is_said_in_the_same_words_everywhere(settings):
+    result = smooth(bent(stack()), **settings)
+    assert result.mesh.element_target is None
+    assert result.worse[-1] == "layers"
+    (wall,) = result.layers
+    assert wall.lost
+    assert wall.loss.startswith(LOSS.replace("The", "the"))
+    assert wall.loss.endswith("; --target given-shape keeps them")
+    said = f"T{wall.loss[1:]}."
+    assert said in result.message
+    assert said in advise(result).regressions
+    report = record(result)
+    assert report["layers"] == [wall.to_dict()]
+    assert report["worse"][-1] == "layers"
+    assert "target" not in report
+
+
+def test_layers_are_not_said_to_be_kept_under_targets_that_lose_them():
+    result = smooth(bent(stack()), target="given-size", goal="shape")
+    assert result.mesh.element_target.name == "given-size"
+    assert "--target given-shape keeps them" in result.message
+    assert "are kept" not in result.message
+
+
+def test_a_tangled_stack_is_mended_with_its_heights():
+    result = smooth(scrambled_in_layers(stack(), 0.7))
+    assert result.after.inverted == 0
+    np.testing.assert_allclose(first_heights(result.mesh), 0.01, rtol=0.05)
+
+
+def test_later_stages_have_the_target_of_the_mesh_as_given():
+    mesh = bent(stack())
+    recipe = Recipe.of(Stage(METHODS["laplacian"]()), Stage(METHODS["mend"](target="given-shape")))
+    run = Run(mesh, recipe)
+    for _ in run:
+        pass
+    alone = smooth(mesh, target="given-shape")
+    np.testing.assert_array_equal(run.result().mesh.element_target.lengths, alone.mesh.element_target.lengths)
+
+
+def test_a_method_that_takes_over_has_its_own_target():
+    run = Run(bent(stack()), METHODS["mend"](target="ideal"))
+    next(run)
+    run.switch_method(METHODS["mend"](target="given-size"))
+    assert run.result().mesh.element_target.name == "given-size"
+
+
+def test_meshes_without_layers_have_no_target_and_no_report():
+    result = smooth(scrambled(grid(4), 0.3))
+    assert (result.layers, result.mesh.element_target) == ((), None)
+    assert "layers" not in record(result)
+    assert "Edge lengths" not in result.message
+
+
+def test_a_great_change_of_edge_lengths_is_said():
+    places = np.array([0, 1, 3, 6, 10, 14, 17, 19, 20]) / 20
+    mesh = grid(8)
+    graded = mesh.with_points(places[mesh.points.astype(int)])
+    uniform = mesh.with_points(mesh.points / 8)
+    assert grading_message(graded, uniform, measure(graded.points, graded.hexes)) == (
+        "Edge lengths change by up to a factor of 2.5; --target given-shape keeps them."
+    )
+    assert grading_message(uniform, scrambled(uniform, 0.02), measure(uniform.points, uniform.hexes)) == ""
+    tangled = scrambled(uniform, 0.1)
+    assert grading_message(tangled, uniform, measure(tangled.points, tangled.hexes)) == ""
+
+
+@pytest.mark.slow
+def test_scrambled_layers_of_the_gallery_come_back():
+    sound = gallery.make("layered", size=4000)
+    result = smooth(gallery.make("layered", size=4000, scramble=0.6))
+    (wall,) = result.layers
+    assert result.after.inverted == 0
+    assert wall.after.first_height_mean == pytest.approx(1e-4, rel=0.01)
+    assert wall.after.growth == pytest.approx(1.2, rel=0.02)
+    assert result.after.scaled_jacobian_min > smooth(sound, max_iterations=0).after.scaled_jacobian_min - 1e-3
+
+
+def test_a_recipe_tells_of_all_its_stages_whether_they_keep_layers():
+    assert Run(stack(), Recipe.of("laplacian", "mend")).layers_message.endswith("are kept in some stages only.")
+    assert Run(stack(), Recipe.of("mend", "local-nr")).layers_message.endswith("are kept.")
+    assert Run(stack(), Recipe.of("laplacian", "getme")).layers_message.endswith("are not kept.")
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian"])
+def test_a_tangled_mesh_that_does_not_move_loses_no_layers(method):
+    result = smooth(scrambled_in_layers(stack(), 0.7), method, max_iterations=0)
+    assert "lose" not in result.message
+    assert "layers" not in result.worse
+    (wall,) = result.layers
+    assert wall.after.first_height_mean == pytest.approx(wall.before.first_height_mean)
+
+
+# Runs of several methods: one numbering, one clock, one record, whatever the stages do.
+
+
+FEW = StoppingCriteria(max_iterations=4, tolerance=0)
+
+
+def stage(name, most=4, **parameters):
+    return Stage(METHODS[name](**parameters), StoppingCriteria(max_iterations=most, tolerance=0))
+
+
+@pytest.fixture(scope="module")
+def scrambled_mesh():
+    return gallery.make("cube", size=125, scramble=0.5)
+
+
+def test_the_stages_are_what_the_methods_do_one_after_another(scrambled_mesh):
+    recipe = Recipe.of(stage("getme", 5), stage("local-sd", 3), stage("mend", 6, goal="shape"))
+    run = iterate(scrambled_mesh, recipe)
+    whole = [it.points for it in run]
+    alone = []
+    for one in recipe.stages:
+        part = iterate(scrambled_mesh, one.smoother, one.stop)
+        alone += [it.points for it in part]
+        scrambled_mesh = part.result().mesh
+    assert len(whole) == len(alone) == 14
+    for ours, theirs in zip(whole, alone, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    np.testing.assert_array_equal(run.result().mesh.points, scrambled_mesh.points)
+
+
+def test_numbers_seconds_and_history_go_on_and_every_iteration_names_its_stage(scrambled_mesh):
+    run = iterate(scrambled_mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2)))
+    assert (run.start.diagnostics["stage"], run.start.diagnostics["method"]) == (1, "getme")
+    seen = [(it.number, it.diagnostics["stage"], it.diagnostics["method"]) for it in run]
+    assert seen == [(1, 1, "getme"), (2, 1, "getme"), (3, 1, "getme"), (4, 2, "local-sd"), (5, 2, "local-sd")]
+    assert [row["iteration"] for row in run.history] == [0, 1, 2, 3, 4, 5]
+    seconds = [row["seconds"] for row in run.history]
+    assert seconds == sorted(seconds)
+    assert seconds[4] > seconds[3]
+    result = run.result()
+    assert result.before == iterate(scrambled_mesh, "laplacian").result().before
+    assert result.iterations == 5
+    assert result.setup_seconds == sum(one.setup_seconds for one in result.stages)
+    assert run.decisions == [
+        "Stage 1, GETMe, simultaneous, 3 iterations: Stopped at the iteration limit before it converged."
+    ]
+    assert run.decisions[0] in result.message
+
+
+def test_the_report_lists_the_stages(scrambled_mesh):
+    report = record(smooth(scrambled_mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2, p=3))))
+    to_json(report)
+    assert (report["method"], report["parameters"]) == ("recipe", {})
+    first, second = report["stages"]
+    assert (first["method"], first["first"], first["iterations"], first["outcome"]) == ("getme", 0, 3, "max-iterations")
+    assert (second["stage"], second["first"], second["iterations"]) == (2, 3, 2)
+    assert (second["parameters"]["p"], second["stop"]["max_iterations"]) == (3, 2)
+    assert first["seconds"] + second["seconds"] == pytest.approx(report["seconds"])
+
+
+@pytest.mark.parametrize("idle", [0, 1, 2])
+def test_a_stage_that_has_nothing_to_do_is_passed_over(scrambled_mesh, idle):
+    stages = [stage("getme", 2), stage("local-sd", 2), stage("smart-laplacian", 2)]
+    stages[idle] = stage("mend", 0)
+    run = iterate(scrambled_mesh, Recipe.of(*stages))
+    assert [it.number for it in run] == [1, 2, 3, 4]
+    assert run.outcome is Outcome.MAX_ITERATIONS
+    assert [one.iterations for one in run.result().stages] == [0 if number == idle else 2 for number in range(3)]
+
+
+def test_a_stage_that_cannot_step_is_passed_over():
+    tangled = gallery.make("cube", size=125, scramble=2.0)
+    run = iterate(tangled, Recipe.of(METHODS["global-sd"](delta=0.0), "mend"))  # on tangled hexes delta = 0 is infinite
+    assert next(run).number == 1
+    for _ in run:
+        pass
+    assert [(one.outcome, one.iterations > 0) for one in run.result().stages] == [
+        (Outcome.NO_DESCENT, False),
+        (Outcome.CONVERGED, True),
+    ]
+    assert run.result().after.inverted == 0
+
+
+def test_a_stage_begins_where_the_one_before_was_best(scrambled_mesh, monkeypatch):
+    monkeypatch.setattr(METHODS["laplacian"], "rank", lambda self, start, now: (now.q.mean() > start.q.mean() + 1e-9,))
+    run = iterate(scrambled_mesh, Recipe.of(stage("laplacian", 3), stage("local-sd", 1)))
+    kept = [it.points for it in run][-1]
+    expected = next(iterate(scrambled_mesh, "local-sd")).points  # as every Laplacian step is worse by that rank
+    np.testing.assert_array_equal(kept, expected)
+    assert run.last.number == 4
+    assert run.decisions[0].endswith("Iteration 0 of it was kept.")
+
+
+def test_nothing_free_ends_all_at_once():
+    result = smooth(grid(1), Recipe.of("laplacian", "mend"))
+    assert (result.outcome, result.iterations, len(result.stages)) == (Outcome.NOTHING_FREE, 0, 1)
+
+
+def test_the_most_that_it_can_come_to(scrambled_mesh):
+    run = iterate(scrambled_mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2)))
+    assert (run.max_iterations, run.stage_number, run.stage_count) == (5, 1, 2)
+    for _ in run:
+        assert run.max_iterations == 5
+    assert run.stage_number == 2
+    short = iterate(
+        grid(3), Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=100)), stage("mend", 2))
+    )
+    next(short)
+    assert short.stage == short.recipe.stages[0]
+    assert short.max_iterations == 1 + 2  # a perfect grid: the first stage has converged
+
+
+def test_the_rest_of_a_stage_is_done_by_another_method(scrambled_mesh):
+    run = iterate(scrambled_mesh, Recipe.of(stage("getme", 5), stage("mend", 1)))
+    at = [next(run), next(run)][-1]
+    run.switch_method("local-sd")
+    rest = list(run)
+    assert [(it.number, it.diagnostics["stage"], it.diagnostics["method"]) for it in rest] == [
+        (3, 1, "local-sd"), (4, 1, "local-sd"), (5, 1, "local-sd"), (6, 2, "mend"),
+    ]  # fmt: skip
+    expected = next(iterate(scrambled_mesh.with_points(at.points), "local-sd")).points
+    np.testing.assert_array_equal(rest[0].points, expected)
+    assert run.decisions[0] == "After iteration 2: Local steepest descent takes over from GETMe, simultaneous."
+    assert [(one.stage, one.method, one.first, one.iterations) for one in run.result().stages] == [
+        (1, "getme", 0, 2), (1, "local-sd", 2, 3), (2, "mend", 5, 1),
+    ]  # fmt: skip
+
+
+def test_other_values_on_the_way_and_the_recipe_that_does_it_again(scrambled_mesh):
+    run = iterate(scrambled_mesh, METHODS["local-sd"](), StoppingCriteria(max_iterations=6, tolerance=0))
+    next(run)
+    next(run)
+    run.switch_method(METHODS["local-sd"](p=4), StoppingCriteria(max_iterations=7, tolerance=0))
+    points = [it.points for it in run]
+    assert run.decisions == ["After iteration 2: p = 4 instead of 2, max_iterations = 7 instead of 6."]
+    assert run.last.number == 7
+    result = run.result()
+    assert result.method == "recipe"
+    assert [one.parameters["p"] for one in result.stages] == [2, 4]
+    again = [it.points for it in iterate(scrambled_mesh, run.recipe)]
+    assert len(again) == 7
+    for ours, theirs in zip(points, again[2:], strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+
+
+def test_other_limits_alone_do_not_begin_the_method_anew(scrambled_mesh):
+    plain = [it.points for it in iterate(scrambled_mesh, "mend", StoppingCriteria(max_iterations=8))]
+    run = iterate(scrambled_mesh, "mend", StoppingCriteria(max_iterations=3))
+    seen = [next(run).points, next(run).points]
+    run.switch_method("mend", StoppingCriteria(max_iterations=8))
+    seen += [it.points for it in run]
+    for ours, theirs in zip(seen, plain, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    assert run.result().method == "mend"
+    assert run.decisions[0] == "After iteration 2: max_iterations = 8 instead of 3."
+
+
+def test_a_stage_that_has_ended_goes_on_under_new_limits_and_the_next_one_follows(scrambled_mesh):
+    run = iterate(scrambled_mesh, Recipe.of(stage("getme", 2), stage("local-sd", 1)))
+    next(run)
+    next(run)
+    run.switch_method(METHODS["getme"](relaxation=0.5), StoppingCriteria(max_iterations=3, tolerance=0))
+    assert [it.diagnostics["method"] for it in run] == ["getme", "local-sd"]
+
+
+def test_limits_that_are_passed_already_end_the_stage(scrambled_mesh):
+    run = iterate(scrambled_mesh, "local-sd", FEW)
+    next(run)
+    next(run)
+    run.switch_method("local-mnr", StoppingCriteria(max_iterations=1))
+    assert run.outcome is Outcome.MAX_ITERATIONS
+    assert list(run) == []
+    with pytest.raises(ValueError, match="the run has ended"):
+        run.switch_method("mend")
+
+
+def test_a_method_that_cannot_be_prepared_leaves_the_run_as_it_was(scrambled_mesh, monkeypatch):
+    def steps(self, scrambled_mesh: Mesh):
+        raise MemoryError
+        yield
+
+    run = iterate(scrambled_mesh, "local-sd", FEW)
+    next(run)
+    monkeypatch.setattr(METHODS["laplacian"], "steps", steps)
+    with pytest.raises(MemoryError):
+        run.switch_method(METHODS["laplacian"](update="simultaneous"))
+    assert len(list(run)) == 3
+
+
+def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken(scrambled_mesh):
+    run = iterate(scrambled_mesh, "laplacian", StoppingCriteria(max_iterations=50, max_seconds=1000))
+    for _ in range(3):
+        next(run)
+    assert run.recipe.stages[0].stop.max_seconds == 1000
+    run.switch_method("local-sd")
+    spent = run.last.seconds + run.setup_seconds
+    next(run)
+    cut, rest = run.recipe.stages
+    assert (cut.stop.max_seconds, rest.stop.max_seconds) == (1000, pytest.approx(1000 - spent, rel=1e-2))
+    assert (cut.stop.max_iterations, rest.stop.max_iterations) == (3, 47)
+    run.switch_method("local-nr", StoppingCriteria(max_seconds=1e-9, max_iterations=2))
+    assert run.recipe.stages[-1].stop.max_seconds == 1e-3  # 0 would be no limit
+    assert run.recipe.stages[-1].stop.max_iterations == 0
+
+
+def test_one_limit_leaves_the_others_of_each_stage_and_all_are_those_of_a_stop_that_is_given(scrambled_mesh):
+    recipe = Recipe.of(stage("getme", 9), Stage(METHODS["mend"](), StoppingCriteria(tolerance=1e-3, keep_last=True)))
+    stops = [one.stop for one in iterate(scrambled_mesh, recipe, max_iterations=2).recipe.stages]
+    assert stops == [
+        StoppingCriteria(max_iterations=2, tolerance=0),
+        StoppingCriteria(max_iterations=2, tolerance=1e-3, keep_last=True),
+    ]
+    stops = [
+        one.stop
+        for one in iterate(scrambled_mesh, recipe, StoppingCriteria(tolerance=0.5), max_iterations=2).recipe.stages
+    ]
+    assert stops == [StoppingCriteria(max_iterations=2, tolerance=0.5)] * 2

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from hexmend.mesh.element_target import Target
+from hexmend import METHODS, StoppingCriteria, Target, iterate, smooth
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.quality import measure, measure_against_target, target_quality
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS
-from tests.core.grids import grid
+from tests.core.grids import grid, placed
 
 OPTIMISERS = sorted(name for name, method in METHODS.items() if method.optimises)
 #: Each optimiser with and without the weight of the size in turn.
@@ -100,9 +98,7 @@ def test_the_size_brings_back_sizes_that_the_shape_does_not():
     """Cubes of two sizes in a row of fixed length: the shape alone is content with any scale."""
     lattice = grid(4, 2, 2)
     planes = np.array([0, 0.5, 1, 2.5, 4.0])  # lengths along x: 0.5, 0.5, 1.5, 1.5
-    points = lattice.points.copy()
-    points[:, 0] = planes[lattice.points[:, 0].astype(int)]
-    made = lattice.with_points(points)
+    made = placed(lattice, np.s_[:, 0], planes[lattice.points[:, 0].astype(int)])
     lengths = np.repeat(edge_lengths(made)[:, :1], 3, axis=1)  # cubes of these sizes
     moved = made.with_points(np.where(made.free[:, None], made.points + [0.3, 0, 0], made.points))
     errors = []

@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.advice import advise
+from hexmend import METHODS, MeshError, StoppingCriteria, advise, read, smooth, write
 from hexmend.boundary import SlidingBoundary
 from hexmend.cli.main import main
-from hexmend.errors import MeshError
-from hexmend.io import read, write
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
 #: Of a grid of 4 x 4 x 4 hexes: a node inside, one within a side, and a corner.
@@ -72,3 +68,18 @@ def test_a_node_that_cannot_slide_is_named(wrong):
     said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."
     with pytest.raises(MeshError, match=said.replace("+", r"\+")):
         sliding.project(x)
+
+
+# A mesh all of whose nodes are in one place: no method has anything to go by, and none fails.
+
+
+@pytest.mark.parametrize("place", [0.0, 3.0])
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_ends_on_a_mesh_without_extent(name, place):
+    mesh = grid(2)
+    mesh = mesh.with_points(np.full_like(mesh.points, place))
+    assert mesh.mean_edge_length == 0
+    result = smooth(mesh, name, StoppingCriteria(max_iterations=3))
+    assert result.after.inverted == 8
+    assert np.isfinite(result.mesh.points).all()
+    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])

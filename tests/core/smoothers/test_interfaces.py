@@ -7,13 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend import METHODS, Mesh, Outcome, smooth
 from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.gallery import make
-from hexmend.iteration import Outcome
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality.material_volumes import material_volumes
-from hexmend.run import smooth
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 SLIDING = [

@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 import hexmend as hx
-from hexmend.iteration import Step
-from hexmend.mesh.linear_motion import LinearMotion
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS, Smoother
+from hexmend import METHODS, LinearMotion, Smoother, Step, measure
 from hexmend.smoothers.mend.goals import STEP_OF_LEAST
 from tests.core.grids import grid
 from tests.core.linear_motions import CASES, face, planes, scrambled_within, turn

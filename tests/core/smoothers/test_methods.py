@@ -8,12 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend import kernels
-from hexmend.gallery import make
+from hexmend import METHODS, gallery, measure
 from hexmend.parameters import declared, from_strings
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
+from tests.core.threads import by_threads
 
 pytestmark = pytest.mark.parametrize("name", METHODS)
 
@@ -73,15 +71,8 @@ def test_the_result_moves_turns_and_scales_with_the_mesh(name, seed, exponent):
 
 
 def test_runs_are_bitwise_repeatable_whatever_the_number_of_threads(name):
-    mesh, most, results = scrambled(grid(6), 0.4), kernels.threads(), []
-    try:
-        for threads in (1, 3):
-            kernels.set_threads(threads)
-            results.append(points_after(mesh, METHODS[name](), 3)[-1])
-    finally:
-        kernels.set_threads(most)
-    for result in results[1:]:
-        np.testing.assert_array_equal(results[0], result)
+    mesh = scrambled(grid(6), 0.4)
+    np.testing.assert_array_equal(*by_threads(lambda: points_after(mesh, METHODS[name](), 3)[-1]))
 
 
 def test_numbering_of_hexes_does_not_matter_much(name):
@@ -93,7 +84,7 @@ def test_numbering_of_hexes_does_not_matter_much(name):
 
 
 def test_quality_rises_on_a_scrambled_gallery_mesh(name):
-    mesh = make("five-side", size=500, scramble=0.25, seed=1)
+    mesh = gallery.make("five-side", size=500, scramble=0.25, seed=1)
     before = measure(mesh.points, mesh.hexes).q
     after = measure(points_after(mesh, METHODS[name](), 20)[-1], mesh.hexes).q
     assert after.mean() > before.mean() + 0.01 or after.min() > before.min() + 0.05  # some raise the worst alone

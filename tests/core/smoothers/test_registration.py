@@ -6,9 +6,8 @@ import pytest
 
 from hexmend.quality import METRICS
 from hexmend.quality import metric as metrics
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import METHODS, Smoother, method
 from hexmend.smoothers import base as smoother
-from hexmend.smoothers.base import method
 
 
 def named(base=Smoother, **texts):

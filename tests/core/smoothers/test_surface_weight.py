@@ -7,17 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import kernels
+from hexmend import METHODS, StoppingCriteria, Target, iterate, smooth
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import FixedDelta, ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
-from hexmend.mesh.element_target import Target
 from hexmend.quality import measure, objective
-from hexmend.run import StoppingCriteria, iterate, smooth
-from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 from tests.core.linear_motions import planes
+from tests.core.threads import by_threads
 
 WEIGHTED = sorted(name for name, method in METHODS.items() if hasattr(method, "surface_weight"))
 DESCENTS = [name for name in WEIGHTED if name != "local-patch"]
@@ -94,9 +92,7 @@ def with_a_flipped_quad():
     """A cube in which a node of a face is beyond a diagonal of its quads, but so little inside that no hex is inverted."""
     cube = grid(4)
     node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
-    points = cube.points.copy()
-    points[node] += [0.8, 0.8, 0]
-    return cube.with_points(points), node
+    return displaced(cube, node, [0.8, 0.8, 0]), node
 
 
 @pytest.mark.parametrize("name", WEIGHTED[::3])
@@ -138,14 +134,8 @@ def test_local_and_global_steps_reach_the_same_optimum():
 
 @pytest.mark.parametrize("name", ["local-nr", "global-nr"])
 def test_the_number_of_threads_does_not_matter(name):
-    mesh, most, results = slid(cylinder(32, 3), 0.3), kernels.threads(), []
-    try:
-        for threads in (1, 3):
-            kernels.set_threads(threads)
-            results.append(next(itertools.islice(sliding(name, 1.0).steps(mesh), 3, None)).points)
-    finally:
-        kernels.set_threads(most)
-    np.testing.assert_array_equal(*results)
+    mesh, method = slid(cylinder(32, 3), 0.3), sliding(name, 1.0)
+    np.testing.assert_array_equal(*by_threads(lambda: next(itertools.islice(method.steps(mesh), 3, None)).points))
 
 
 @pytest.mark.parametrize("name", ["local-nr", "global-nr"])

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Mesh, measure
 from hexmend.kernels import worst_first
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
 

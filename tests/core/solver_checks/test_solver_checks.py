@@ -6,15 +6,14 @@ import math
 import numpy as np
 import pytest
 
-from hexmend.errors import ParameterError
+from hexmend import Mesh, ParameterError
 from hexmend.gallery import GALLERY, make
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.quality.validity import least_jacobian
 from hexmend.report.records import to_json
 from hexmend.solver_checks import SOLVERS, check_mesh
 from tests.core.grids import grid
-from tests.core.quality.test_solver_metrics import second_order
+from tests.core.quality.test_metrics import second_order
 
 every = pytest.mark.parametrize("solver", SOLVERS)
 ONE = np.arange(8)[None]

@@ -6,17 +6,11 @@ import json
 import numpy as np
 import pytest
 
-from hexmend import gallery, io
+from hexmend import METHODS, MotionRules, ParameterError, Recipe, compare, gallery, io, write_recipe
 from hexmend.cli.main import main
-from hexmend.errors import ParameterError
-from hexmend.mesh.rules import MotionRules
 from hexmend.quality import Summary, measure, objective, summarise
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.run.recipe import Recipe
-from hexmend.run.recipe_files import write_recipe
-from hexmend.smoothers import METHODS
 from hexmend.study import table_row as one_row
-from hexmend.study.compare import compare
 from hexmend.study.method_spec import parse_methods
 from hexmend.study.table_row import BINS
 
@@ -179,23 +173,20 @@ def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, cap
     (["{file}", "-o", "{folder}", "--methods", "{recipe}"], 2, "there is no target 'bar'"),
     (["{file}", "-o", "{folder}", "--fix", "nowhere"], 3, "'nowhere'"),
 ])  # fmt: skip
-def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, capsys):
+def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, complaint):
     write_recipe(tmp_path / "chain.toml", Recipe.of("laplacian", METHODS["mend"](target="bar")))
     words = [word.format(file=file, folder=tmp_path / "tables", recipe=tmp_path / "chain.toml") for word in words]
-    assert main(["compare", *words]) == status
-    (line,) = capsys.readouterr().err.splitlines()
-    assert message in line
+    assert message in complaint("compare", *words, status=status)
     assert not (tmp_path / "tables").exists()
 
 
-def test_the_command_fails_where_every_method_fails(file, tmp_path, monkeypatch, capsys):
+def test_the_command_fails_where_every_method_fails(file, tmp_path, monkeypatch, run_command):
     def steps(self, mesh):
         raise ValueError("no")
 
     monkeypatch.setattr(METHODS["laplacian"], "steps", steps)
     words = ["compare", str(file), "-o", str(tmp_path / "tables"), "--max-iterations", "2", "--methods"]
-    assert main([*words, "laplacian"]) == 3
-    assert "every method failed" in capsys.readouterr().err
+    assert "every method failed" in run_command(*words, "laplacian", status=3).err
     assert (tmp_path / "tables/comparison.md").exists()
     assert main([*words, "laplacian,local-sd"]) == 0
 

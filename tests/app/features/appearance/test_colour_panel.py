@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QLabel, QWidget
 
 from hexmend.gallery import make
 from hexmend.quality import METRICS, Metric
@@ -14,7 +14,7 @@ from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import named
+from tests.app.driving import brought, heard_from, key, named, pixels, press, type_text, walk_to
 from tests.app.hosting import action
 
 _LEFT = Qt.MouseButton.LeftButton
@@ -36,8 +36,7 @@ def panel(shown, unbounded):
 
 @pytest.fixture
 def emitted(panel):
-    scales = []
-    panel.colours_changed.connect(scales.append)
+    scales = heard_from(panel.colours_changed)
     return scales
 
 
@@ -51,7 +50,7 @@ def problem(panel):
     return " ".join(label.text() for label in labels if label.isVisible() and "xpected" in label.text())
 
 
-def press(panel, mode):
+def choose_range(panel, mode):
     QTest.mouseClick(part(panel, "Range").button(mode), _LEFT)
 
 
@@ -65,8 +64,7 @@ def choose(combo, name):
 
 def type_in(box, text, *, enter=True):
     box.lineEdit().setFocus()
-    box.lineEdit().selectAll()
-    QTest.keyClicks(box.lineEdit(), text)
+    type_text(box.lineEdit(), text)
     if enter:
         QTest.keyClick(box.lineEdit(), Qt.Key.Key_Return)
 
@@ -86,7 +84,7 @@ def test_every_metric_is_listed_with_its_description(panel):
 def test_each_choice_emits_one_signal(panel, emitted):
     choose(part(panel, "Metric"), "scaled-jacobian")
     choose(part(panel, "Colour map"), "cividis")
-    press(panel, "acceptable")
+    choose_range(panel, "acceptable")
     QTest.mouseClick(part(panel, "Reverse"), _LEFT, pos=QPoint(8, part(panel, "Reverse").height() // 2))
     assert emitted == [
         Colours(metric="scaled-jacobian"),
@@ -97,17 +95,17 @@ def test_each_choice_emits_one_signal(panel, emitted):
 
 
 def test_pinning_fixes_the_current_range(panel, emitted):
-    press(panel, "fitted")
+    choose_range(panel, "fitted")
     panel.set_ends(0.123456, 0.987654)
     assert not part(panel, "Minimum value").isEnabled()
-    press(panel, "pinned")
+    choose_range(panel, "pinned")
     assert emitted[-1].range == (0.123, 0.988)
     panel.set_ends(0, 1)  # of a later iteration
     assert (part(panel, "Minimum value").value(), part(panel, "Maximum value").value()) == (0.123, 0.988)
 
 
 def test_a_number_being_typed_emits_no_signal(panel, emitted):
-    press(panel, "pinned")
+    choose_range(panel, "pinned")
     emitted.clear()
     type_in(part(panel, "Maximum value"), "0.35", enter=False)
     panel.set_ends(0.1, 0.2)  # an iteration is drawn meanwhile
@@ -118,7 +116,7 @@ def test_a_number_being_typed_emits_no_signal(panel, emitted):
 
 
 def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
-    press(panel, "pinned")
+    choose_range(panel, "pinned")
     emitted.clear()
     for text, words in (("2", "the lower value first"), ("1e", "Expected a number"), ("1", "the lower value first")):
         type_in(part(panel, "Minimum value"), text)
@@ -133,13 +131,13 @@ def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
 
 
 def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
-    press(panel, "pinned")
+    choose_range(panel, "pinned")
     type_in(part(panel, "Minimum value"), "0.25")
     choose(part(panel, "Metric"), "scaled-jacobian")
     assert emitted[-1].range is Range.FULL
     choose(part(panel, "Metric"), "q")
-    press(panel, "full")
-    press(panel, "pinned")
+    choose_range(panel, "full")
+    choose_range(panel, "pinned")
     assert emitted[-1].range == (0.25, 1)
 
 
@@ -197,3 +195,44 @@ def test_controls_of_values_are_disabled_for_materials(host):
 
 def test_a_mesh_of_one_material_does_not_offer_the_switch(hosted):
     assert not action(FeatureAppearance(hosted(make("cube", size=8))), "colour_by_material").enabled()
+
+
+# Appearance in the window: colours and their ranges.
+
+
+@pytest.fixture
+def front_panel(window, qtbot):
+    """Return the colour panel, in front."""
+    return brought(window, qtbot, "look", "appearance")
+
+
+def differ(before, after):
+    """Return the fraction of pixels that differ clearly."""
+    return (np.abs(after - before).sum(axis=2) > 60).mean()
+
+
+@pytest.mark.slow
+def test_the_colours_by_metric_map_and_range(window, qtbot, front_panel):
+    whole, bar = pixels(window), window.canvas.colour_bar
+    walk_to(window, named(front_panel, QComboBox, "Metric"), "scaled-jacobian")
+    assert window.session.view.look.colours.metric == "scaled-jacobian"
+    assert "Scaled Jacobian from 0 to 1" in bar.accessibleDescription()
+    recoloured = pixels(window)
+    assert differ(whole, recoloured) > 0.05
+    maps = named(front_panel, QComboBox, "Colour map")
+    maps.setFocus()
+    QTest.keyClick(maps, Qt.Key.Key_Down)
+    assert differ(recoloured, pixels(window)) > 0.05
+    low, high = (named(front_panel, QAbstractSpinBox, f"{end} value") for end in ("Minimum", "Maximum"))
+    press(named(front_panel, QAbstractButton, "Range: Fitted"))
+    assert f"from {low.value():g} to {high.value():g}" in bar.accessibleDescription()
+    assert not low.isEnabled()
+    start = window.session.document.now
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(lambda: window.session.document.now is not start)
+    window.refresh()
+    now = window.session.document.now.figures
+    values = now.scaled_jacobian[~now.inverted]
+    assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
+    press(named(front_panel, QAbstractButton, "Range: Pinned"))
+    assert window.session.view.look.colours.range == (low.value(), high.value())

@@ -3,12 +3,11 @@
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox, QPushButton
+from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox
 
 from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
-from tests.app.driving import open_and_wait
+from tests.app.driving import button, open_and_wait, type_text
 
 
 @pytest.fixture
@@ -34,10 +33,6 @@ def dialog(window, saved, qtbot):
 
 def names(dialog):
     return [dialog.list.item(row).text() for row in range(dialog.list.count())]
-
-
-def button(dialog, text):
-    return next(one for one in dialog.findChildren(QPushButton) if one.text() == text)
 
 
 def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):
@@ -80,9 +75,7 @@ def type_name(dialog, row, text):
     dialog.list.setCurrentRow(row)
     button(dialog, "&Rename").click()
     editor = dialog.list.findChildren(QLineEdit)[-1]
-    editor.selectAll()
-    QTest.keyClicks(editor, text)
-    QTest.keyClick(editor, Qt.Key.Key_Return)
+    type_text(editor, text, enter=True)
 
 
 @pytest.mark.slow

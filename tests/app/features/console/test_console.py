@@ -105,19 +105,19 @@ def test_lines_history_and_completion(window, console, qtbot):
     panel.input.clear()
 
 
-@pytest.mark.parametrize(
-    ("source", "complete"),
-    [
-        ("1 + 1", True),
-        ("x = (1,", False),
-        ("def f():", False),
-        ("def f():\n    return 1", False),
-        ("def f():\n    return 1\n    ", True),
-        ("a = 1\nb = 2", True),
-        ("a b", True),
-        ("", True),
-    ],
-)
+SOURCES = [
+    ("1 + 1", True),
+    ("x = (1,", False),
+    ("def f():", False),
+    ("def f():\n    return 1", False),
+    ("def f():\n    return 1\n    ", True),
+    ("a = 1\nb = 2", True),
+    ("a b", True),
+    ("", True),
+]
+
+
+@pytest.mark.parametrize(("source", "complete"), SOURCES)
 def test_is_complete(source, complete):
     assert is_complete(source) == complete
 

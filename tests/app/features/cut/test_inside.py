@@ -8,11 +8,10 @@ from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
 
 from hexmend import gallery
 from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.widgets.inputs.slider_box import SliderBox
-from tests.app.driving import LEFT, named, open_mesh
+from tests.app.driving import LEFT, heard_from, named, open_mesh, type_text
 
 PEEL, RINGS = "Peel layers", "Rings around isolated hexes"
 BUTTONS = ("Show all", "Show last", "Show hidden")
@@ -40,17 +39,14 @@ def faces(window):
 
 def type_into(box, text):
     box.setFocus()
-    box.selectAll()
-    QTest.keyClicks(box, text)
-    QTest.keyClick(box, Qt.Key.Key_Return)
+    type_text(box, text, enter=True)
 
 
 # The panel
 
 
 def test_slider_and_spin_box_show_the_same_number_of_layers(panel):
-    emitted = []
-    panel.peel.changed.connect(emitted.append)
+    emitted = heard_from(panel.peel.changed)
     named(panel, QSlider, PEEL).setFocus()
     QTest.keyClick(named(panel, QSlider, PEEL), Qt.Key.Key_Right)
     assert named(panel, QSpinBox, PEEL).value() == 1

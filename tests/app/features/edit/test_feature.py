@@ -4,17 +4,15 @@ import numpy as np
 from PySide6.QtCore import Qt
 
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import click, key, phase
+from tests.app.driving import click_until, key
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
 
 def test_keys_undo_and_redo_a_run(window, qtbot):
     start = window.session.document.now
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
+    click_until(window, qtbot, "Stop", Phase.FINISHED)
     after = window.session.document.now
     assert after is not start
     key(window, Qt.Key.Key_Z, CONTROL)

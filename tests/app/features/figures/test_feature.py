@@ -7,15 +7,13 @@ import shlex
 import pytest
 from PIL import Image
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
 
 from benchmarks.window.windows import end_run
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria
 from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.exports import versions_of
 from hexmend_app.picture import read_scene
-from tests.app.driving import LEFT
+from tests.app.driving import LEFT, button
 from tests.app.features.timeline.test_feature import stepped
 
 
@@ -66,8 +64,7 @@ def test_the_export_can_be_cancelled(window, qtbot, folder):
     feature = window.features["figures"]
     assert feature.going_on
     assert not window.features["figures"].actions()[0].enabled()
-    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
-    QTest.mouseClick(cancel, LEFT)
+    QTest.mouseClick(button(window.busy, "Cancel"), LEFT)
     assert not feature.going_on
     assert not (folder / "captions.md").exists()
 
@@ -87,8 +84,7 @@ def test_each_step_of_a_report_is_named_and_the_report_can_be_cancelled(window, 
         window.busy, "show_work", lambda owner, text, *others: (texts.append(text), show(owner, text, *others))
     )
     window.window_actions["report"].trigger()
-    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
-    QTest.mouseClick(cancel, LEFT)
+    QTest.mouseClick(button(window.busy, "Cancel"), LEFT)
     assert not window.features["figures"].going_on
     assert not page.exists()
     texts.clear()

@@ -8,10 +8,10 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.run import memory
 from tests.core.boundary.solids import ball, slid
-from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
+from tests.core.smoothers.test_sliding_smoother import skin_of, write_stl
 
 
-def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
+def test_a_run_becomes_an_animation(mesh_file, tmp_path, run_command):
     path = tmp_path / "run.gif"
     options = [
         "--method",
@@ -25,23 +25,22 @@ def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
         "--clip",
         "x:0.5",
     ]
-    assert main(["film", str(mesh_file), "-o", str(path), *options]) == 0
-    assert "4 frames of 320 × 240 pixels" in capsys.readouterr().out
+    assert "4 frames of 320 × 240 pixels" in run_command("film", mesh_file, "-o", path, *options).out
     with Image.open(path) as film:
         assert (film.n_frames, film.size) == (4, (320, 240))
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
-        (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
-        (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
-        (["-o", "run.gif", "--arrows", "some"], "expected sight or all"),
-        (["-o", "run.gif", "--since", "ever"], "expected run or iteration"),
-        (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
-    ],
-)
+WRONG_OPTIONS = [
+    (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
+    (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
+    (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
+    (["-o", "run.gif", "--arrows", "some"], "expected sight or all"),
+    (["-o", "run.gif", "--since", "ever"], "expected run or iteration"),
+    (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), WRONG_OPTIONS)
 def test_wrong_options_are_reported_before_the_run(mesh_file, tmp_path, monkeypatch, capsys, options, message):
     monkeypatch.chdir(tmp_path)
     assert main(["film", str(mesh_file), *options]) != 0
@@ -49,10 +48,10 @@ def test_wrong_options_are_reported_before_the_run(mesh_file, tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_film_that_needs_too_much_memory_is_refused(mesh_file, tmp_path, monkeypatch, capsys):
+def test_a_film_that_needs_too_much_memory_is_refused(mesh_file, tmp_path, monkeypatch, run_command):
     monkeypatch.setattr(memory, "available", lambda: 1000)
-    assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.gif"), "--method", "laplacian"]) == 3
-    assert capsys.readouterr().err.startswith("hexmend: Laplacian on ")
+    said = run_command("film", mesh_file, "-o", tmp_path / "run.gif", "--method", "laplacian", status=3).err
+    assert said.startswith("hexmend: Laplacian on ")
     assert not (tmp_path / "run.gif").exists()
 
 
@@ -72,10 +71,10 @@ def test_an_mp4_film_plays(mesh_file, tmp_path):
     assert abs(frames[0] - frames[5]).mean() < 1
 
 
-def test_without_pyav_an_mp4_film_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, capsys):
+def test_without_pyav_an_mp4_film_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, run_command):
     monkeypatch.setattr("hexmend_app.scene.film.film.find_spec", lambda name: None)
-    assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.mp4"), "--method", "laplacian"]) == 3
-    assert "pip install '.[film]'" in capsys.readouterr().err
+    printed = run_command("film", mesh_file, "-o", tmp_path / "run.mp4", "--method", "laplacian", status=3).err
+    assert "pip install '.[film]'" in printed
 
 
 def test_a_histogram_is_drawn_next_to_the_mesh(mesh_file, tmp_path):
@@ -116,11 +115,11 @@ def test_the_mesh_before_the_run_stays_next_to_it(mesh_file, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
+def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, run_command):
     path = tmp_path / "run.gif"
     run = ["--method", "laplacian", "--max-iterations", "3", "--size", "640x300", "--rate", "10"]
-    assert main(["film", str(mesh_file), "-o", str(path), *run, "--before", "--histogram", "--poster"]) == 0
-    assert "4 frames of 640 × 300 pixels" in capsys.readouterr().out
+    printed = run_command("film", mesh_file, "-o", path, *run, "--before", "--histogram", "--poster").out
+    assert "4 frames of 640 × 300 pixels" in printed
     frames, durations = _frames(path)
     assert durations == [100, 800, 100, 100, 800]
     assert (frames[0] == frames[-1]).all()
@@ -128,10 +127,9 @@ def test_a_film_can_begin_with_its_result(mesh_file, tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_the_boundary_slides_on_the_surface_of_an_option(tmp_path, capsys):
+def test_the_boundary_slides_on_the_surface_of_an_option(tmp_path, run_command):
     write_stl(tmp_path / "fine.stl", skin_of(ball(8)))
     io.write(tmp_path / "ball.vtu", slid(ball(3), 0.3))
     options = ["--method", "laplacian", "--max-iterations", "2", "--size", "320x240", "--frames", "2"]
     words = ["film", str(tmp_path / "ball.vtu"), "-o", str(tmp_path / "run.gif"), *options]
-    assert main([*words, "--surface", str(tmp_path / "fine.stl")]) == 0
-    assert "from fine.stl" in capsys.readouterr().out
+    assert "from fine.stl" in run_command(*words, "--surface", tmp_path / "fine.stl").out

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
+from PySide6.QtWidgets import QComboBox, QSpinBox
 
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.film.film_page import FilmPage
-from tests.app.driving import LEFT, named, turn
+from tests.app.driving import LEFT, button, named, turn
 from tests.app.features.timeline.test_feature import stepped
 
 
@@ -72,8 +72,7 @@ def test_a_film_can_be_cancelled_and_a_wrong_suffix_is_reported(window, qtbot, t
     path = tmp_path / "run.gif"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
     window.window_actions["film"].trigger()
-    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
-    QTest.mouseClick(cancel, LEFT)
+    QTest.mouseClick(button(window.busy, "Cancel"), LEFT)
     assert not window.features["film"].going_on
     turn()
     assert list(tmp_path.glob("*.gif")) == []

@@ -3,12 +3,22 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QTableView
 
-from tests.app.driving import LEFT, drag, key, open_mesh, smooth, texts
+from hexmend.quality import METRICS, measure
+from hexmend_app.features.hex_inspector.hex_panel import HexPanel
+from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.features.hex_inspector.worst_model import ID, write_worst
+from hexmend_app.state.mesh.inspection import describe_hex, describe_node
+from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
+from hexmend_app.widgets.link_label import LinkLabel
+from hexmend_app.widgets.wording import figure
+from tests.app.driving import LEFT, drag, heard_from, key, named, open_mesh, smooth, texts
+from tests.app.invalid_hexes import BENT, INSIDE, THREE, VALID
 from tests.core.boundary.solids import slid
-from tests.core.grids import grid
+from tests.core.grids import grid, scrambled
 
 
 def centre(window):
@@ -119,3 +129,162 @@ def test_only_the_isolated_region_is_free_until_undo(window):
     assert session.document.undo_title == "free a region"
     session.commands.undo()
     np.testing.assert_array_equal(session.document.now.mesh.free, mesh.free)
+
+
+# List of the worst hexes.
+
+
+MESH = scrambled(grid(11), 0.7, 4)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+@pytest.fixture
+def worst_list(qtbot):
+    widget = WorstList()
+    qtbot.addWidget(widget)
+    widget.resize(600, 300)
+    widget.show()
+    widget.set_figures(MESH, FIGURES)
+    actions = QAction("Previous", widget), QAction("Next", widget)
+    for action, handle in zip(actions, (widget.previous, widget.next), strict=True):
+        action.triggered.connect(handle)
+    widget.show_actions(*actions)
+    return widget
+
+
+def button(widget, text):
+    return next(b for b in widget.findChildren(QAbstractButton) if b.accessibleName() == text)
+
+
+def row_at(widget, row):
+    table = widget.findChild(QTableView)
+    return table.viewport(), table.visualRect(table.model().index(row, 0)).center()
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
+    metric = worst_list.findChild(QComboBox)
+    metric.setCurrentIndex(metric.findData(name))
+    hexes, better = worst_list.hexes, METRICS[name].better or 1
+    assert len(hexes) == min(MAX_LISTED, MESH.n_hexes) < MESH.n_hexes
+    keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
+    keys[np.isnan(keys)] = -np.inf
+    listed = keys[hexes]
+    soundness = np.select([FIGURES.inverted, FIGURES.invalid], [0, 1], 2)
+    assert list(zip(soundness[hexes], listed, strict=True)) == sorted(zip(soundness, keys, strict=True))[: len(hexes)]
+    equal = (listed[1:] == listed[:-1]) & (np.diff(soundness[hexes]) == 0)
+    assert (np.diff(FIGURES.scaled_jacobian[hexes])[equal] >= 0).all()
+
+
+def test_the_numbers_of_the_file_have_a_column_where_it_has_some(worst_list, tmp_path):
+    table = worst_list.findChild(QTableView)
+    assert table.isColumnHidden(ID)
+    mesh = MESH.replace(hex_data={"id": np.arange(MESH.n_hexes)[::-1] + 7})
+    worst_list.set_figures(mesh, FIGURES)
+    assert not table.isColumnHidden(ID)
+    worst = int(worst_list.hexes[0])
+    assert table.model().index(0, ID).data() == str(MESH.n_hexes - 1 - worst + 7)
+    write_worst(tmp_path / "worst.csv", mesh)
+    head, first = (tmp_path / "worst.csv").read_text().splitlines()[:2]
+    assert (head.split(",")[-1], first.split(",")[-1]) == ("id", str(MESH.n_hexes - 1 - worst + 7))
+
+
+def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list):
+    mesh = scrambled(grid(6), 0.5, 2)
+    figures = measure(mesh.points, mesh.hexes)
+    worst_list.set_figures(mesh, figures)
+    hexes, inside = worst_list.hexes, figures.invalid & ~figures.inverted
+    assert inside.any()
+    assert figures.q[figures.invalid].max() > figures.q[~figures.invalid].min()
+    inverted, invalid = figures.n_inverted, figures.n_invalid
+    assert figures.inverted[hexes[:inverted]].all()
+    assert inside[hexes[inverted:invalid]].all()
+
+
+def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
+    viewport, place = row_at(worst_list, 2)
+    with qtbot.waitSignal(worst_list.chosen) as chosen:
+        QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    assert chosen.args == [worst_list.hexes[2]]
+
+
+def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list):
+    selected = heard_from(worst_list.chosen)
+    worst_list.chosen.connect(worst_list.set_selected)
+    for text in ("Next", "Next", "Previous", "Previous"):
+        QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)
+    hexes = worst_list.hexes.tolist()
+    assert selected == [hexes[0], hexes[1], hexes[0], hexes[-1]]
+
+
+def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
+    hex = int(worst_list.hexes[5])
+    worst_list.set_selected(hex)
+    better = scrambled(grid(11), 0.5, 4)
+    worst_list.set_figures(better, measure(better.points, better.hexes))
+    row = worst_list.findChild(QTableView).currentIndex().row()
+    listed = worst_list.hexes.tolist()
+    assert (listed[row] == hex) if hex in listed else row == -1
+
+
+# Panel of the selected hex.
+
+
+SMALL = scrambled(grid(5), 0.9, 4)
+WORST_OF_SMALL = int(measure(SMALL.points, SMALL.hexes).scaled_jacobian.argmin())
+
+
+@pytest.fixture
+def panel(qtbot):
+    widget = HexPanel()
+    qtbot.addWidget(widget)
+    widget.resize(520, 260)
+    widget.show()
+    return widget
+
+
+def test_without_a_hex_the_panel_shows_a_hint(panel):
+    panel.show_hex(None)
+    assert any("Click a hex" in text for text in texts(panel))
+
+
+def test_a_hex_is_shown_with_metrics_nodes_and_neighbours(panel):
+    details = describe_hex(SMALL, WORST_OF_SMALL)
+    panel.show_hex(details)
+    shown = texts(panel)
+    assert f"Hex {WORST_OF_SMALL:,}" in shown
+    assert f"inverted; det J min / max {figure(details.least_jacobian)}" in shown
+    assert all(any(f">{node:,}<" in text for text in shown) for node in details.nodes)
+    assert f"{details.values['q']:.4f}" in shown
+    assert shown.count("free") + shown.count("fixed") == 8
+
+
+def test_a_hex_that_is_invalid_inside_is_called_so_with_its_least_determinant(panel):
+    panel.show_hex(describe_hex(THREE, INSIDE))
+    (state,) = (text for text in texts(panel) if text.startswith("invalid inside; det J min / max "))
+    assert float(state.split()[-1].replace("−", "-")) == pytest.approx(-1 / 8, abs=2e-3)
+    panel.show_hex(describe_hex(BENT, 0))  # by its map of second order
+    assert any(text.startswith("invalid inside; det J min / max −") for text in texts(panel))
+    panel.show_hex(describe_hex(THREE, VALID))
+    assert not any("det J" in text for text in texts(panel))
+
+
+def test_the_numbers_of_the_file_are_named_too(panel):
+    ids = {"hex_data": {"id": np.arange(SMALL.n_hexes) + 501}, "node_data": {"id": np.arange(SMALL.n_nodes) + 1001}}
+    mesh = SMALL.replace(**ids)
+    node = int(mesh.hexes[WORST_OF_SMALL][0])
+    panel.show_hex(describe_hex(mesh, WORST_OF_SMALL))
+    panel.show_node(describe_node(mesh, node))
+    shown = texts(panel)
+    assert any(text.startswith(f"Number in the file: {WORST_OF_SMALL + 501}<br>") for text in shown)
+    assert any(text.startswith(f"Node {node:,} ({node + 1001} in the file): ") for text in shown)
+    from_zero = SMALL.replace(hex_data={"id": np.arange(SMALL.n_hexes)})
+    panel.show_hex(describe_hex(from_zero, WORST_OF_SMALL))
+    assert not any("in the file:" in text for text in texts(panel))
+
+
+def test_neighbours_are_links(panel):
+    details = describe_hex(SMALL, WORST_OF_SMALL)
+    panel.show_hex(details)
+    links, neighbour = named(panel, LinkLabel, "Neighbours"), next(h for h in details.neighbours if h >= 0)
+    assert f'href="{neighbour}"' in links.text()

@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF
 from PySide6.QtTest import QTest
 
 from hexmend_app.features.histogram.panel import QualityHistogram
-from tests.app.driving import LEFT, move, turn
+from tests.app.driving import LEFT, heard_from, move, turn
 from tests.app.features.histogram.mouse import point_at
 
 
@@ -31,8 +31,7 @@ def histogram(shown, data):
 @pytest.fixture
 def announced(histogram):
     """Return a list of the ranges that the histogram announces."""
-    ranges = []
-    histogram.range_changed.connect(ranges.append)
+    ranges = heard_from(histogram.range_changed)
     return ranges
 
 

@@ -6,9 +6,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend_app.picture.colours import Range
-from hexmend_app.picture.cut import Cut
-from tests.app.driving import brought, named, pixels, smooth
+from hexmend_app.picture import Cut, Range
+from tests.app.driving import brought, named, pixels, smooth, type_text
 from tests.app.driving import press as press_button
 
 
@@ -75,8 +74,7 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     window.refresh()
     before = pixels(window)
     assert 0 < layer.drawn < free
-    panel.factor.lineEdit().selectAll()
-    QTest.keyClicks(panel.factor.lineEdit(), "4")
+    type_text(panel.factor.lineEdit(), "4")
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
     assert window.session.view.look.movement.factor == 4
     window.refresh()

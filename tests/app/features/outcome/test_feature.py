@@ -1,20 +1,34 @@
 """Outcome of a run in the window, by mouse clicks and keys."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
-from hexmend import gallery
-from hexmend.iteration import StoppingCriteria
-from hexmend_app.features.outcome.feature import notice
+from hexmend import (
+    METHODS,
+    LocalSteepestDescent,
+    MotionRules,
+    Stage,
+    StoppingCriteria,
+    advise,
+    gallery,
+    iterate,
+    smooth,
+)
+from hexmend.advice import Suggestion
+from hexmend.gallery import make
+from hexmend_app.features.outcome.feature import FeatureOutcome, notice
+from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import button, click, key, open_mesh, phase, press, run_to_end
+from tests.app.driving import button, click, click_until, key, named, open_mesh, phase, press, run_to_end, texts
 from tests.app.driving import texts as visible_texts
+from tests.core.grids import displaced, grid, scrambled
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 
@@ -24,7 +38,7 @@ def run(window, qtbot, method, **stop):
     window.show_panel("outcome")
 
 
-def texts(window):
+def outcome_texts(window):
     window.refresh()
     return " ".join(visible_texts(window.features["outcome"].panel))
 
@@ -56,10 +70,10 @@ def test_the_key_shows_why_the_run_stopped(window, qtbot):
     run_to_end(window, qtbot, "laplacian", keep_last=True)
     key(window, Qt.Key.Key_Y)
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
-    assert "Why Laplacian stopped" in texts(window)
-    assert "no node moved further than 0.0001 mean edge lengths" in texts(window)
+    assert "Why Laplacian stopped" in outcome_texts(window)
+    assert "no node moved further than 0.0001 mean edge lengths" in outcome_texts(window)
     inverted = window.session.document.now.summary.inverted
-    assert f"{inverted} of {window.session.document.now.mesh.n_hexes:,} hexes are inverted" in texts(window)
+    assert f"{inverted} of {window.session.document.now.mesh.n_hexes:,} hexes are inverted" in outcome_texts(window)
 
 
 @pytest.mark.slow
@@ -77,7 +91,7 @@ def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qt
     assert not choice(window, "Select: Mend").isEnabled()
     qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert window.session.document.now.summary.inverted == 0
-    assert "Why Mend stopped" in texts(window)
+    assert "Why Mend stopped" in outcome_texts(window)
 
 
 @pytest.mark.slow
@@ -86,19 +100,18 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
     start = window.session.document.now.mesh.points
     run(window, qtbot, "laplacian", keep_last=True)
     assert window.session.document.now.summary.inverted > 0
-    assert "Worse than at the start: inverted 0 → 12" in texts(window)
+    assert "Worse than at the start: inverted 0 → 12" in outcome_texts(window)
     press_choice(window, "Select: Undo, then Smart Laplacian")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
     assert window.session.run_setup.method == "smart-laplacian"
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Run", Phase.FINISHED)
     assert window.session.document.now.summary.inverted == 0
 
 
 @pytest.mark.slow
 def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
-    assert f'<a href="{locked}">{locked}</a>' in texts(window)
+    assert f'<a href="{locked}">{locked}</a>' in outcome_texts(window)
     press_choice(window, "Show the locked hexes")
     assert window.session.view.look.show.isolate.hexes == (locked,)
     assert window.session.selection.hex == locked
@@ -153,3 +166,150 @@ def test_a_run_that_helps_nothing_keeps_the_mesh_and_says_so():
     title, text = notice(record, None, None)
     assert title == "Initial mesh kept: no iteration was better"
     assert text == record.message
+
+
+# Suggestions that release nodes: without rules of motion, and on a larger part of the mesh.
+
+
+def tangled():
+    """Return a grid of which an inner node lies outside, the number of that node, and a set with it."""
+    mesh = grid(5)
+    (node,) = np.flatnonzero((mesh.points == [2, 2, 2]).all(axis=1))
+    return displaced(mesh, node, 4).replace(node_sets={"bolt": np.array([node])}), int(node)
+
+
+@pytest.fixture
+def host(hosted):
+    host = hosted(tangled()[0])
+    host.feature = FeatureOutcome(host)
+    return host
+
+
+def run_chosen(host, qtbot):
+    session = host.session
+    session.commands.run(session.run_setup.stage)
+    qtbot.waitUntil(lambda: session.run.phase is Phase.FINISHED)
+    host.feature.refresh()
+
+
+def apply(host, title):
+    """Select the suggestion with this title."""
+    suggestions = host.session.run.advice.suggestions
+    index = next(at for at, suggestion in enumerate(suggestions) if suggestion.title == title)
+    host.feature.panel.suggestion_chosen.emit(index)
+
+
+@pytest.mark.slow
+def test_a_suggestion_without_the_rules_that_fix_sets_changes_the_rules_of_the_next_run(host, qtbot):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(interfaces="slide", fix=("bolt",)))
+    run_chosen(host, qtbot)
+    assert session.document.now.summary.inverted > 0
+    apply(host, "Mend without the fixed sets")
+    assert session.run_setup.rules == MotionRules(interfaces="slide")
+    run_chosen(host, qtbot)
+    assert session.document.now.summary.inverted == 0
+
+
+def test_a_larger_part_is_free_around_the_hexes_that_are_still_inverted(host, qtbot):
+    session, node = host.session, tangled()[1]
+    mesh = session.document.now.mesh
+    corner = int(np.flatnonzero((mesh.points == [4, 4, 4]).all(axis=1))[0])
+    session.commands.pin(np.setdiff1d(np.arange(mesh.n_nodes), corner), True)
+    session.run_setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(1, keep_last=True)))
+    run_chosen(host, qtbot)
+    suggestion = Suggestion("Mend on a larger part", "", "inverted", METHODS["mend"](), widen=True)
+    record = session.timeline.record
+    record.advice = replace(record.advice, suggestions=(suggestion,))
+    host.feature.refresh()
+    host.feature.panel.suggestion_chosen.emit(0)
+    pinned = session.document.now.mesh.pinned
+    assert not pinned[node]
+    inverted = session.document.now.figures.inverted
+    around = mesh.topology.hexes_around(np.flatnonzero(inverted), 2)
+    assert not pinned[mesh.hexes[around]].any()
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [({"rules": MotionRules()}, "rules of motion"), ({"widen": True}, "around the inverted hexes")],
+)
+def test_the_help_of_a_suggestion_says_what_it_changes(shown, qtbot, host, change, text):
+    host.session.run_setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(1)))
+    run_chosen(host, qtbot)
+    panel, advice = shown(OutcomePanel(), 400, 300), host.session.run.advice
+    suggestion = Suggestion("Mend", "", "inverted", METHODS["mend"](), **change)
+    panel.show_advice("", replace(advice, suggestions=(suggestion,)))
+    assert text in named(panel, QPushButton, "Select: Mend").toolTip()
+
+
+# Panel of the outcome of a run.
+
+
+@pytest.fixture
+def panel(shown):
+    return shown(OutcomePanel(), 400, 300)
+
+
+def test_a_run_stopped_before_its_first_iteration_gets_no_suggestions(panel):
+    run = iterate(make("cube", size=27, scramble=0.0), "mend")
+    run.close()
+    panel.show_advice("Why mend stopped", advise(run.result()))
+    assert any("before its first iteration" in text for text in texts(panel))
+    assert not any("No further suggestions" in text or text == "Suggestions" for text in texts(panel))
+    panel.show_advice("Why mend stopped", advise(smooth(make("cube", size=27), "mend")))
+    assert "No further suggestions." in texts(panel)
+    assert "Suggestions" in texts(panel)
+
+
+def test_hexes_left_inverted_have_the_numbers_of_the_file_too(panel):
+    result = smooth(make("cube", size=125, scramble=2.0), "laplacian", max_iterations=0)
+    advice = advise(result)
+    assert advice.unlocked.size
+    panel.show_advice("Why Laplacian stopped", advice, np.arange(125) + 501)
+    listed = ", ".join(str(number + 501) for number in advice.unlocked[:24])
+    assert any(text.startswith("Inverted: ") and text.endswith(f" (in the file {listed})") for text in texts(panel))
+
+
+# After undo, reset and a move in the timeline, a note says that the mesh in the view is not the result of the run.
+
+
+@pytest.fixture
+def smoothed_host(hosted):
+    return hosted(scrambled(grid(4), 0.3))
+
+
+@pytest.fixture
+def shown_texts(smoothed_host, qtbot):
+    """Return a function that gives the texts of the panel after a run of eight iterations."""
+    feature = FeatureOutcome(smoothed_host)
+    qtbot.addWidget(feature.panel)
+    with qtbot.waitSignal(smoothed_host.session.run.ended):
+        smoothed_host.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
+
+    def visible_texts():
+        feature.refresh()
+        return " ".join(label.text() for label in feature.panel.findChildren(QLabel) if not label.isHidden())
+
+    return visible_texts
+
+
+def test_the_result_of_the_run_has_no_note(shown_texts):
+    assert "Why Local steepest descent stopped" in shown_texts()
+    assert "The view shows" not in shown_texts()
+
+
+@pytest.mark.parametrize("command", ["undo", "reset"])
+def test_the_note_after_undo_and_reset(smoothed_host, shown_texts, command):
+    getattr(smoothed_host.session.commands, command)()
+    assert "the mesh before the run" in shown_texts()
+    if command == "undo":
+        smoothed_host.session.commands.redo()
+    else:
+        smoothed_host.session.commands.undo()
+    assert "the mesh before the run" not in shown_texts()
+
+
+def test_the_iteration_in_the_view_is_named(smoothed_host, shown_texts):
+    smoothed_host.session.timeline.go(smoothed_host.session.timeline.record, 5)
+    assert "at Local steepest descent 5" in shown_texts()

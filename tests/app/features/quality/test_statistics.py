@@ -8,13 +8,12 @@ from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QTableWidget
 
-from hexmend.quality import summarise
-from hexmend.quality.summary import Summary
+from hexmend import Summary, summarise
 from hexmend_app.features.quality.quality_bar import FIGURES, QualityBar
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
 from hexmend_app.theme.palette import BETTER, MUTED, WORSE
 from hexmend_app.widgets.wording import figure
-from tests.app.driving import named, run_to_end
+from tests.app.driving import heard_from, named, run_to_end
 from tests.core.grids import grid
 
 START = dataclasses.replace(
@@ -90,8 +89,7 @@ def test_ctrl_c_copies_the_table_in_full_precision(table):
 def with_inverted(table):
     """Return the table with inverted hexes now, and a list of the groups whose isolation was requested."""
     table.set_summaries(START, dataclasses.replace(NOW, inverted=12, locked_inverted=3, invalid=14))
-    requests = []
-    table.isolate_requested.connect(requests.append)
+    requests = heard_from(table.isolate_requested)
     return table, requests
 
 

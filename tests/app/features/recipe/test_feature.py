@@ -6,11 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog, QLineEdit, QListWidget, QPushButton
 
-from hexmend.iteration import StoppingCriteria
-from hexmend.run import smooth
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.recipe_files import read_recipe
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Recipe, Stage, StoppingCriteria, read_recipe, smooth
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup

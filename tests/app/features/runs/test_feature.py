@@ -5,14 +5,14 @@ import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtTest import QTest
 
-from hexmend.iteration import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria
 from hexmend_app.features.runs.run_table import FIRST, NAME, QUANTITIES, SETTINGS, RunRow, RunTable
 from hexmend_app.features.runs.runs_panel import axis_of, place
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import BLUE, MUTED
 from tests.app.driving import phase
+from tests.core.grids import displaced
 
 GIVEN = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
 ROW_HELP = "Every other result is worse in at least one key figure."
@@ -104,9 +104,8 @@ def test_a_click_shows_the_result_of_a_run(window, three):
 def test_a_click_shows_the_mesh_at_the_start_even_if_no_run_began_there(window, qtbot):
     session = window.session
     start = session.document.start
-    points = start.mesh.points.copy()
-    points[np.flatnonzero(start.mesh.free)[0]] += 1e-3
-    session.commands.adopt_positions("move a node", State.of(start.mesh.with_points(points)))
+    moved = displaced(start.mesh, np.flatnonzero(start.mesh.free)[0], 1e-3)
+    session.commands.adopt_positions("move a node", State.of(moved))
     session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=2))
     qtbot.waitUntil(phase(window, Phase.FINISHED))
     window.show_panel("runs")

@@ -14,9 +14,8 @@ from benchmarks.window.windows import save_and_wait
 from hexmend import io
 from hexmend.gallery import make
 from hexmend_app.features.save.feature import FeatureSave
-from hexmend_app.picture import Page, write_scene
+from hexmend_app.picture import Cut, CutStyle, Page, write_scene
 from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase
 

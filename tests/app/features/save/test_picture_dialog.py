@@ -3,7 +3,6 @@
 import pytest
 from PIL import Image
 from PySide6.QtCore import QSettings, QSize
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
@@ -11,6 +10,7 @@ from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
+from tests.app.driving import type_text
 from tests.core.grids import grid
 
 
@@ -45,8 +45,7 @@ def dialog(qtbot):
 
 def write(dialog, path):
     line = next(one for one in dialog.findChildren(QLineEdit) if one.accessibleName() == "File")
-    line.selectAll()
-    QTest.keyClicks(line, str(path))
+    type_text(line, str(path))
 
 
 def save(dialog):
@@ -60,8 +59,7 @@ def said(dialog):
 def type_into(dialog, name, text):
     editor = next(form.editors[name] for _, form in dialog.forms if name in form.editors)
     line = editor if isinstance(editor, QLineEdit) else editor.lineEdit()
-    line.selectAll()
-    QTest.keyClicks(line, text)
+    type_text(line, text)
 
 
 @pytest.mark.parametrize("name", ["p.gif", "p.jpg", "p.v2"])

@@ -1,25 +1,20 @@
 """The script of the changes of a mesh runs without the window and makes the same mesh."""
 
-import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
-from hexmend import io
+from hexmend import METHODS, Mesh, MotionRules, Recipe, Stage, StoppingCriteria, io
 from hexmend.gallery import make
-from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import METHODS
 from hexmend_app.features.script.trace import Trace
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
+from tests.app.driving import brought, named, press, run_to_end
+from tests.programs import run_python
 
 SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
@@ -75,7 +70,7 @@ def executed(qtbot, session, tmp_path):
     out.unlink()
     text = Trace(session).text()
     script.write_text(text)
-    done = subprocess.run([sys.executable, "-W", "error", script], capture_output=True, text=True, env=os.environ)
+    done = run_python("-W", "error", script)
     assert done.returncode == 0, f"{done.stderr}\n{text}"
     made, mesh = io.read(out), session.document.now.mesh
     np.testing.assert_allclose(made.points, mesh.points, atol=1e-6)
@@ -153,3 +148,26 @@ def test_without_a_mesh_the_script_does_nothing(qtbot):
     session = Session()
     exec(Trace(session).text(), {})
     session.close()
+
+
+# The script in the window: shown, copied and saved.
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    return brought(window, qtbot, "script")
+
+
+def test_the_script_is_shown_copied_and_saved(window, panel, qtbot, tmp_path, monkeypatch):
+    run_to_end(window, qtbot, "local-sd", max_iterations=2, tolerance=0)
+    text = panel.findChild(QPlainTextEdit).toPlainText()
+    assert "mesh_1 = hx.smooth(mesh_0, hx.LocalSteepestDescent(), " in text
+    assert "[camera]" in text
+    press(named(panel, QPushButton, "Copy the script"))
+    assert QApplication.clipboard().text().startswith(text.partition("# Current view")[0])
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *asked: (str(tmp_path / "again"), "Python script (*.py)")
+    )
+    press(named(panel, QPushButton, "Save the script"))
+    assert "hx.smooth(" in (tmp_path / "again.py").read_text()
+    assert not window.features["script"].save(tmp_path / "nowhere" / "script.py")

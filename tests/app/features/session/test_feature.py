@@ -6,12 +6,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from benchmarks.window.windows import end_run
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
-from hexmend_app.picture import Camera
+from hexmend import METHODS, Stage, StoppingCriteria
+from hexmend_app.picture import Camera, Cut
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
-from hexmend_app.picture.cut import Cut
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, smooth

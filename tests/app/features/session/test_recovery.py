@@ -10,13 +10,12 @@ import sys
 
 import pytest
 
-from hexmend.errors import HexmendError
-from hexmend.run import StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, HexmendError, StoppingCriteria
 from hexmend_app.state.session import recovery as recovery_module
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings.paths import VARIABLE
 from tests.app.driving import button, open_and_wait, press, smooth
+from tests.programs import run_python
 
 #: A window that smooths a mesh, tells what it has come to once that is kept, and never ends by itself.
 _PROGRAM = """
@@ -196,7 +195,7 @@ def test_autosave_writes_only_changes(window, qtbot, own_state):
 
 
 @pytest.mark.slow
-def test_an_open_window_is_not_recovered(window, qtbot, own_state, monkeypatch):
+def test_an_open_window_is_not_recovered(window, qtbot, own_state):
     recovery = window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.written):
@@ -211,8 +210,7 @@ def test_an_open_window_is_not_recovered(window, qtbot, own_state, monkeypatch):
         "print(len(recovery.recoverable))\n"
         "recovery.end()\n"
     )
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    done = run_python("-c", program, paths=sys.path, check=True)
     assert done.stdout == "0\n"
     assert len(list(own_state.iterdir())) == 1
     recovery.end()

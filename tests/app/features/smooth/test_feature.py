@@ -5,17 +5,39 @@ import threading
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QMessageBox
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QMessageBox
 
-from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, MotionRules, Recipe, Stage, StoppingCriteria, read_recipe, write_recipe
+from hexmend import smooth as smoothed
+from hexmend.gallery import make
+from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from hexmend_app.features.smooth.feature import FeatureSmooth
+from hexmend_app.features.smooth.rule_form import RuleForm
+from hexmend_app.features.smooth.set_rules import choices_of, rules_of_set, with_set_rules
+from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run import worker
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_settings import Pace
-from hexmend_app.state.session import commands
+from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.state.session import commands, session_data
 from hexmend_app.state.settings import settings
-from tests.app.driving import choose, click, key, named, phase, run_to_end, sentence
+from hexmend_app.widgets.section import Section
+from tests.app.driving import (
+    choose,
+    click,
+    click_until,
+    heard_from,
+    key,
+    named,
+    phase,
+    run_to_end,
+    sentence,
+    smooth,
+    type_text,
+)
 from tests.patience import PATIENCE
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -37,17 +59,14 @@ def counts(window):
 def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING))
+    click_until(window, qtbot, "Run", Phase.RUNNING)
     qtbot.waitUntil(lambda: document.now is not start)
-    click(window, "Pause")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Pause", Phase.PAUSED)
     held = document.now
     click(window, "Step")
     qtbot.waitUntil(lambda: document.now is not held)
     assert document.now.summary.objective != held.summary.objective or held.summary.objective is None
-    click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Stop", Phase.FINISHED)
     window.refresh()
     assert window.isWindowModified()
     assert document.undo_title == "Local steepest descent"
@@ -113,8 +132,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 @pytest.mark.slow
 def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
     window = fresh_window
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
     with monkeypatch.context() as patched:
         patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
         window.close()
@@ -193,10 +211,359 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
 @pytest.mark.slow
 def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
     record = window.session.run.record
     window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
     assert len(asked) == 1
     assert window.session.run.phase is Phase.PAUSED
     assert window.session.run.record is record
+
+
+# Rules of motion in the window: shown for sets and interfaces, chosen, used by runs, and stored.
+
+
+SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
+SLIDING = MotionRules(interfaces="slide", fix=("inlet",))
+
+
+def two_materials():
+    """Scrambled cube of two materials, with sets of its opposite sides and of a node inside."""
+    mesh = make("cube", size=64, scramble=0.3)
+    x = make("cube", size=64).points
+    sides = {name: np.flatnonzero(x[:, 0] == end) for name, end in (("inlet", x.min()), ("outlet", x.max()))}
+    inside = np.flatnonzero(mesh.free)[:1]
+    hexes = {"low": np.arange(32), "high": np.arange(32, 64)}
+    return mesh.replace(node_sets={**sides, "inside": inside}, hex_sets=hexes)
+
+
+@pytest.fixture
+def mesh():
+    return two_materials()
+
+
+@pytest.fixture
+def form(shown, mesh):
+    form = shown(RuleForm(), 300, 400)
+    form.show_rules(mesh, MotionRules())
+    return form
+
+
+@pytest.fixture
+def host(hosted, mesh):
+    host = hosted(mesh)
+    host.feature = FeatureSmooth(host)
+    return host
+
+
+def boxes(form):
+    """Return the boxes of the rules of sets by accessible name, without those that are being deleted."""
+    QApplication.processEvents()  # rows are shown in the next turn of the event loop
+    return {one.accessibleName(): one for one in form.findChildren(QComboBox) if not one.isHidden()}
+
+
+def box(form, name):
+    return boxes(form)[f"Rule of {name}"]
+
+
+def pick(form, name, text):
+    """Choose the rule of a set by keys."""
+    combo = box(form, name)
+    combo.setFocus(Qt.FocusReason.TabFocusReason)
+    at = combo.findText(text)
+    assert combo.model().item(at).isEnabled(), text
+    combo.setCurrentIndex(at)
+    combo.activated.emit(at)
+
+
+def test_the_form_tells_the_interfaces_and_lists_the_sets(form):
+    found = named(form, QLabel, "Interfaces found")
+    assert found.text() == "2 materials; 9 nodes on their interfaces are kept."
+    form.interfaces.button("slide").click()
+    assert found.text() == "2 materials; 9 nodes on their interfaces are to slide along them."
+    assert list(boxes(form)) == [f"Rule of {name}" for name in ("inlet", "outlet", "inside", "low", "high")]
+
+
+def test_a_choice_is_sent_as_rules(form):
+    heard = heard_from(form.changed)
+    pick(form, "inlet", "Fixed")
+    assert heard[-1] == MotionRules(fix=("inlet",))
+    assert form.title == "Interfaces and sets (1 rule)"
+    pick(form, "inlet", "Slides")
+    assert heard[-1] == MotionRules(slide=("inlet",))
+    pick(form, "inlet", "No rule")
+    assert heard[-1] == MotionRules()
+    assert form.title == "Interfaces and sets"
+
+
+def test_choices_that_a_set_cannot_have_are_not_available(mesh):
+    def available(name):
+        return [choice.text for choice in choices_of(mesh, name, ()) if not choice.problem]
+
+    assert available("inlet") == ["No rule", "Fixed", "Slides", "In its plane", "Periodic: outlet"]
+    assert available("inside") == ["No rule", "Fixed", "Free"]
+    assert available("low") == ["No rule", "Fixed", "Slides", "Free"]
+
+
+def test_a_pair_that_does_not_match_is_refused_with_the_reason(form, mesh):
+    x = make("cube", size=64).points
+    apart = np.flatnonzero(x[:, 1] == x[:, 1].min())
+    apart = np.concatenate([apart[:-1], np.flatnonzero(mesh.free)[-1:]])
+    form.show_rules(mesh.replace(node_sets={**mesh.node_sets, "apart": apart}), MotionRules())
+    pick(form, "inlet", "Periodic: apart")
+    assert "not periodic" in named(form, QLabel, "Problem of the rules").text()
+    assert box(form, "inlet").currentText() == "No rule"
+
+
+def test_several_rules_of_a_set_are_shown_and_replaced_together():
+    rules = MotionRules(fix=("a",), periodic=(("b", "a"),))
+    assert rules_of_set(rules, "a") == (("fix", ""), ("periodic", "b"))
+    assert with_set_rules(rules, "a", (("plane", ""),)) == MotionRules(plane=("a",))
+    assert with_set_rules(rules, "b", (("periodic", "c"),)) == MotionRules(fix=("a",), periodic=(("b", "c"),))
+
+
+def test_a_set_that_the_mesh_lacks_is_shown_as_long_as_it_has_a_rule(form, mesh):
+    form.show_rules(mesh, MotionRules(fix=("other",)))
+    assert box(form, "other").currentText() == "Fixed"
+    pick(form, "other", "No rule")
+    form.show_rules(mesh, MotionRules())
+    assert "Rule of other" not in boxes(form)
+
+
+def test_the_form_is_hidden_for_a_mesh_without_sets_and_while_a_run_is_paused(host):
+    feature, panel = host.feature, host.feature.panel
+    feature.refresh()
+    section = panel.rule_form.parentWidget().parentWidget()
+    assert not section.isHidden()
+    panel.set_state("paused")
+    assert not panel.rule_form.isEnabled()
+    host.session.document.replace(State.of(make("cube", size=27)), None)
+    feature.refresh()
+    assert section.isHidden()
+
+
+def test_a_run_has_the_rules_and_its_result_has_none(host, mesh, qtbot):
+    host.session.run_setup.set_rules(SLIDING)
+    smooth(qtbot, host.session, "local-sd", boundary="slide")
+    after = host.session.document.now.mesh
+    expected = smoothed(mesh, METHODS["local-sd"](boundary="slide"), SHORT, interfaces="slide", fix=("inlet",)).mesh
+    np.testing.assert_array_equal(after.points, expected.points)
+    assert (after.points[mesh.node_sets["inlet"]] == mesh.points[mesh.node_sets["inlet"]]).all()
+    free = smoothed(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
+    assert (after.points != free.points).any()
+    assert not after.node_rules.rules
+    assert host.session.run.record.rules == SLIDING
+
+
+def test_recipes_have_the_rules_in_files(host, tmp_path):
+    session = host.session
+    session.run_setup.set_rules(SLIDING)
+    session.recipe_draft.add(Stage(METHODS["getme"]()))
+    write_recipe(tmp_path / "r.toml", session.recipe_draft.recipe)
+    session.run_setup.set_rules(MotionRules())
+    session.recipe_draft.load(read_recipe(tmp_path / "r.toml"))
+    assert session.run_setup.rules == SLIDING
+    session.recipe_draft.load(Recipe.of("mend"))  # a recipe without rules
+    assert session.run_setup.rules == SLIDING
+
+
+def test_sessions_have_the_rules(host, tmp_path):
+    session = host.session
+    session.run_setup.set_rules(SLIDING)
+    session_data.write(tmp_path / "a.hexmend", session.to_data())
+    session.run_setup.set_rules(MotionRules())
+    session.restore(session_data.read(tmp_path / "a.hexmend"))
+    assert session.run_setup.rules == SLIDING
+
+
+def test_another_mesh_keeps_the_rules_of_the_sets_that_it_has(host, mesh):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(interfaces="slide", fix=("inlet", "low"), periodic=(("inlet", "outlet"),)))
+    sets = {name: nodes for name, nodes in mesh.node_sets.items() if name != "outlet"}
+    session.document.replace(State.of(make("cube", size=64).replace(node_sets=sets)), None)
+    assert session.run_setup.rules == MotionRules(interfaces="slide", fix=("inlet",))
+
+
+def test_rules_that_do_not_fit_the_mesh_are_an_error_before_the_run(host, qtbot):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("nowhere",)))
+    before = session.document.now
+    with qtbot.waitSignal(session.run.failed):
+        session.commands.run(Stage(METHODS["local-sd"](), SHORT))
+    assert session.document.now is before
+    ((kind, title, text),) = host.messages.messages()
+    assert (kind, title) == ("error", "Run not started")
+    assert "there is no set 'nowhere'" in text
+
+
+def test_rules_follow_a_tag_that_is_renamed(qtbot, host):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("low",), slide=("inlet",), periodic=(("inlet", "outlet"),)))
+    session.commands.rename_tag("low", "lower half")
+    assert session.run_setup.rules == MotionRules(
+        fix=("lower half",), slide=("inlet",), periodic=(("inlet", "outlet"),)
+    )
+    session.commands.undo()
+    assert session.run_setup.rules.fix == ("low",)
+    session.commands.redo()
+    session.run_setup.set_rules(MotionRules(fix=("lower half",)))
+    before = session.document.now.mesh
+    smooth(qtbot, session, "local-sd")
+    after = session.document.now.mesh
+    nodes = np.unique(before.hexes[before.hex_sets["lower half"]])
+    np.testing.assert_array_equal(after.points[nodes], before.points[nodes])
+
+
+def test_rules_of_a_tag_that_is_removed_do_not_pass_to_another(host):
+    session = host.session
+    session.run_setup.set_rules(MotionRules(fix=("low",)))
+    session.commands.remove_tag("low")
+    assert session.run_setup.rules == MotionRules(fix=("low",))
+
+
+# Requests and states of the smoothing panel.
+
+
+_STATES = ("idle", "preparing", "running", "paused", "finished")
+_SIGNALS = (
+    "run_requested",
+    "step_requested",
+    "pause_requested",
+    "resume_requested",
+)
+_STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7))
+
+
+@pytest.fixture
+def setup(qapp):
+    """Set-up of the panel: the method GETMe, scaling 0.25."""
+    setup = RunSetup()
+    setup.choose(_STAGE)
+    return setup
+
+
+@pytest.fixture
+def panel(shown, setup):
+    return shown(SmoothingPanel(setup), 360, 700)
+
+
+@pytest.fixture
+def heard(panel):
+    calls = []
+    for name in _SIGNALS:
+        getattr(panel, name).connect(lambda *args, name=name: calls.append((name, *args)))
+    return calls
+
+
+def sections(panel):
+    return panel.findChildren(Section)
+
+
+def test_run_and_step_request_the_stage_of_the_form(panel, heard):
+    panel.run_or_pause()
+    panel.step()
+    assert heard == [("run_requested", _STAGE), ("step_requested", _STAGE, 1)]
+
+
+def test_the_main_button_runs_pauses_and_resumes(panel, heard):
+    for state in _STATES:
+        panel.set_state(state)
+        panel.run_or_pause()
+    assert [call[0] for call in heard] == ["run_requested", "pause_requested", "resume_requested", "run_requested"]
+
+
+@pytest.mark.parametrize("state", _STATES)
+def test_nothing_is_edited_while_a_run_is_active(panel, state):
+    panel.set_state(state)
+    method = named(panel, QComboBox, "Method")
+    assert panel.stage.parameters.isEnabled() is panel.stage.stop.isEnabled() is method.isEnabled()
+    assert panel.stage.parameters.isEnabled() is (state in ("idle", "paused", "finished"))
+
+
+def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
+    method = named(panel, QComboBox, "Method")
+    method.setFocus()
+    QTest.keyClick(method, Qt.Key.Key_Down)
+    assert setup.method == "getme-sequential"
+    assert setup.stage.smoother == METHODS["getme-sequential"]()
+    assert METHODS["getme-sequential"].help in "".join(label.text() for label in panel.findChildren(QLabel))
+    QTest.keyClick(method, Qt.Key.Key_Up)
+    assert panel.stage.parameters.values()["scaling"] == 0.25
+    assert setup.stage == _STAGE
+
+
+def test_a_stage_set_elsewhere_is_shown(panel, setup, heard):
+    setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
+    assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
+    assert panel.stage.stop.values()["max_iterations"] == 3
+    assert heard == []
+    panel.run_or_pause()
+    assert heard == [("run_requested", setup.stage)]
+
+
+def test_settings_changed_while_paused_change_the_run(panel, setup):
+    changes = heard_from(panel.change_requested)
+    setup.active_stage = setup.stage
+    panel.set_state("paused")
+    panel.run_or_pause()
+    assert changes == []
+    panel.stage.parameters.editor("scaling").setFocus()
+    panel.stage.parameters.editor("scaling").stepUp()
+    panel.run_or_pause()
+    assert changes == [setup.stage]
+    assert setup.stage.smoother.scaling > 0.25
+
+
+def test_run_shows_an_invalid_value(panel, setup, heard):
+    parameters = sections(panel)[0]
+    parameters.expand()
+    editor = panel.stage.parameters.editor("scaling")
+    editor.lineEdit().setFocus()
+    type_text(editor.lineEdit(), "-7")
+    assert setup.stage is None
+    assert setup.smoother is None
+    parameters.collapse()
+    panel.run_or_pause()
+    panel.step()
+    assert heard == []
+    assert "Correct" in named(panel, QLabel, "Outcome").text()
+    assert editor.isVisible()
+    assert editor.hasFocus()
+
+
+def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
+    panel.set_status(12, 1.839, "Converged: no node moved further than the tolerance. " * 3)
+    progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
+    assert progress.text().split("·")[0].strip() == "12 iterations"
+    assert "1.84 s" in progress.text()
+    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
+    assert sentence.width() <= panel.width()
+
+
+# Form for breakpoints, without a run.
+
+
+@pytest.fixture
+def settings_form(qtbot):
+    settings_form = BreakpointForm()
+    qtbot.addWidget(settings_form)
+    settings_form.set_mesh(10, 20)
+    return settings_form
+
+
+@pytest.mark.parametrize("breakpoints", [
+    Breakpoints(),
+    Breakpoints(inverts=True, q_min_falls=True),
+    Breakpoints(node=3, move=0.25),
+    Breakpoints(hex=7, change=0.5, backtracks=9),
+])  # fmt: skip
+def test_breakpoints_are_emitted_and_read_back(settings_form, qtbot, breakpoints):
+    with qtbot.waitSignal(settings_form.changed) as told:
+        settings_form.set_breakpoints(breakpoints)
+    assert told.args == [breakpoints]
+    assert settings_form.breakpoints() == breakpoints
+
+
+def test_another_mesh_removes_breakpoints_on_single_hexes_and_nodes(settings_form):
+    settings_form.set_breakpoints(Breakpoints(inverts=True, node=19, hex=9))
+    settings_form.set_mesh(5, 6)
+    assert settings_form.breakpoints() == Breakpoints(inverts=True)

@@ -4,15 +4,21 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend import io
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, Mesh, gallery, io
+from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.picture.page import Page
-from tests.app.driving import open_and_wait, tick
-from tests.app.features.structure.layers import open_and_know, pixels, press_key, texts
+from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
+from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
+from hexmend_app.shell.start.program import application
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.structure import find_structure
+from tests.app.driving import heard_from, open_and_wait, tick
+from tests.app.features.structure.layers import count, open_and_know, pixels, press, press_key, texts
+from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.curved_shell import curved_shell
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 
 def test_a_key_shows_and_hides_a_layer(five):
@@ -54,9 +60,8 @@ def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
 def shell():
     """Return a shell with free nodes that are moved away from their places."""
     mesh = curved_shell(20, through=3, around=3, along=3)
-    points = mesh.points.copy()
-    points[mesh.free] += np.random.default_rng(0).normal(scale=0.05, size=(np.count_nonzero(mesh.free), 3))
-    return mesh.with_points(points)
+    shift = np.random.default_rng(0).normal(scale=0.05, size=(np.count_nonzero(mesh.free), 3))
+    return displaced(mesh, mesh.free, shift)
 
 
 @pytest.fixture
@@ -93,3 +98,123 @@ def test_the_switch_is_on_for_hexes_with_mid_nodes_and_not_offered_for_others(op
     assert not action.isEnabled()
     assert not box.isVisibleTo(opened)
     assert parts(opened) == 1
+
+
+# Counts and check boxes of the structure panel.
+
+
+@pytest.fixture
+def panel(qtbot):
+    application()
+    panel = StructurePanel()
+    qtbot.addWidget(panel)
+    panel.resize(330, panel.sizeHint().height())
+    with qtbot.waitExposed(panel):
+        panel.show()
+    return panel
+
+
+def test_only_layers_of_nodes_are_enabled_before_the_edges_are_found(panel):
+    assert texts(panel, "irregular") == []
+    panel.set_found(None)
+    panel.set_classes(None)
+    panel.set_nodes(8, 1, 3, 2)
+    panel.set_legend("original", OriginalSurface.legend(grid(2)))
+    offered = [name for name, on in panel.offered().items() if on]
+    assert offered == ["fixed", "free", "locked", "kinds", "original"]
+    assert texts(panel, "irregular") == ["counting…"]
+    assert "Counting." in panel.layers["sharp"].box.toolTip()
+    assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
+    assert texts(panel, "locked") == ["of 2 hexes"]
+
+
+def test_a_failed_classification_is_reported(panel):
+    panel.set_classes(None, ValueError("no boundary"))
+    assert texts(panel, "kinds") == ["failed"]
+    assert not panel.offered()["kinds"]
+    assert "Not counted: no boundary." in panel.layers["kinds"].box.toolTip()
+    panel.set_classes(None)
+    assert texts(panel, "kinds") == ["counting…"]
+    assert panel.offered()["kinds"]
+
+
+def test_edges_are_counted_by_valence(panel):
+    panel.set_found(find_structure(tetrahedron()))
+    assert texts(panel, "irregular") == ["4 of 3", "1 node"]
+    assert "120° or 72°" in panel.layers["irregular"].box.toolTip()
+    mesh = grid(8)
+    p = mesh.points / 4 - 1
+    size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
+    panel.set_found(find_structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
+    assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
+
+
+def test_curved_faces_are_offered_for_hexes_with_mid_nodes_alone(panel):
+    panel.set_curved(None)
+    assert not panel.layers["curved"].box.isVisible()
+    assert not panel.offered()["curved"]
+    mid_nodes = np.full((5, 19), -1)
+    mid_nodes[:3, :12] = 8
+    panel.set_curved(mid_nodes)
+    assert panel.layers["curved"].box.isVisible()
+    assert panel.layers["curved"].box.isChecked()
+    assert texts(panel, "curved") == ["3 hexes"]
+    heard = heard_from(panel.structure_changed)
+    press(panel.layers["curved"].box)
+    assert heard == [Structure().without("curved")]
+
+
+def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
+    panel.set_found(find_structure(grid(2)))
+    panel.set_nodes(26, 0, 1, 0)
+    panel.set_legend("original", OriginalSurface.legend(grid(2)))
+    assert panel.offered() == {
+        "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
+        "kinds": False, "others": False, "original": True, "target": False, "interfaces": False,
+        "curved": False,
+    }  # fmt: skip
+    assert texts(panel, "irregular") == ["none"]
+    assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()
+    heard = heard_from(panel.structure_changed)
+    press(panel.layers["irregular"].box)
+    assert heard == []
+    panel.set_structure(Structure.of("irregular"))
+    press(panel.layers["irregular"].box)
+    assert heard == [Structure()]
+    assert not panel.offered()["irregular"]
+
+
+# The structure of the open mesh is found in the background.
+
+
+def begin_searching(window):
+    """Not waited for: a small mesh's search may be over between two looks at it."""
+    window.session.structure_finder.search()
+    assert window.session.structure_finder.busy
+
+
+@pytest.mark.slow
+def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
+    first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
+    window.session.document.replace(first, None)
+    begin_searching(window)
+    window.session.document.replace(last, None)
+    qtbot.waitUntil(lambda: window.session.structure_finder.result is not None)
+    assert len(window.session.structure_finder.result.sharp) == 24
+
+
+@pytest.mark.slow
+def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
+    press_key(five, "sharp")
+    press_key(five, "irregular")
+    io.write(tmp_path / "cube.vtu", grid(3))
+    open_and_wait(qtbot, five, tmp_path / "cube.vtu")
+    assert five.session.structure_finder.result is None
+    assert five.canvas.viewport.frame.look.structure.on.isdisjoint(EDGE_LAYERS)  # the view does not wait for them
+    qtbot.waitUntil(lambda: five.session.structure_finder.result is not None)
+    five.refresh()
+    assert five.canvas.viewport.frame.look.structure == Structure.of("irregular", "sharp")
+    assert texts(five.features["structure"].panel, "sharp") == ["36"]
+    assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
+    assert count(pixels(five), SHARP) > 300
+    assert count(pixels(five), VALENCES[5]) == 0

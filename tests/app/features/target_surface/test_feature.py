@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QLabel
 from hexmend.boundary import SkinSurface
 from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import choose, click, open_and_wait, open_mesh, phase
+from tests.app.driving import choose, click_until, open_and_wait, open_mesh
 from tests.core.boundary.solids import ball, slid
-from tests.core.smoothers.test_sliding_on_surface import skin_of, write_stl
+from tests.core.smoothers.test_sliding_smoother import skin_of, write_stl
 
 SKIN = skin_of(ball(8))
 
@@ -35,8 +35,7 @@ def test_runs_slide_on_a_chosen_surface(window, qtbot, stl):
     window.refresh()
     assert target(window).name == "fine.stl"
     assert window.session.run_setup.smoother.boundary == "slide"
-    click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    click_until(window, qtbot, "Run", Phase.FINISHED)
     mesh = window.session.document.now.mesh
     assert target(window).distances(mesh.points[mesh.topology.boundary]).max() < 1e-6
     assert "from fine.stl" in window.session.timeline.record.advice.surface

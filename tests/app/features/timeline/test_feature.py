@@ -5,12 +5,11 @@ from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QSpinBox, QToolButton
 
-from hexmend.iteration import Outcome, Step, StoppingCriteria
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, Outcome, Step, StoppingCriteria
 from hexmend_app.features.timeline.run_bar import RunBar
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, choose, click, key, named, phase, press, sentence
+from tests.app.driving import LEFT, choose, click, click_until, key, named, phase, press, sentence, type_text
 
 ENDLESS = StoppingCriteria(tolerance=0.0, max_iterations=1_000_000)
 
@@ -21,10 +20,8 @@ def stepped(window, qtbot, iterations=12, method="local-sd"):
     choose(window, method, ENDLESS)
     box = named(panel, QSpinBox, "Iterations per step")
     box.setFocus()
-    box.selectAll()
-    QTest.keyClicks(box, str(iterations))
-    click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    type_text(box, str(iterations))
+    click_until(window, qtbot, "Step", Phase.PAUSED)
     window.refresh()
     return window.session.run.record
 
@@ -81,8 +78,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     check(window, "A hex inverts")
     choose(window, "laplacian", ENDLESS)
     with qtbot.waitSignal(window.session.run.hit) as hit:
-        click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.PAUSED))
+        click_until(window, qtbot, "Run", Phase.PAUSED)
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
     assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame) is None  # nothing is before it

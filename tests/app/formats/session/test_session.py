@@ -5,13 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.boundary import SkinSurface
-from hexmend.errors import FileError
 from hexmend.gallery import make
-from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.formats.session.archive import read_archive, write_archive

@@ -5,9 +5,8 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
+from hexmend_app.picture import Cut, CutStyle, Isolate, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame

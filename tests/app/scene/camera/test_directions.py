@@ -20,11 +20,16 @@ from hexmend_app.scene.camera.steering import turn
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 
 
+def looking(name, up):
+    camera = vtkCamera()
+    look_from(camera, name, up)
+    return camera
+
+
 @pytest.mark.parametrize("up", UPS)
 @pytest.mark.parametrize("name", DIRECTIONS)
 def test_the_vertical_axis_is_up_in_all_views_not_along_it(name, up):
-    camera = vtkCamera()
-    look_from(camera, name, up)
+    camera = looking(name, up)
     ahead, upwards = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetViewUp())
     axis = np.array(UPS[up][0])
     assert np.linalg.norm(np.cross(ahead, upwards)) > 0.5  # VTK would have to turn the camera
@@ -44,8 +49,7 @@ def test_the_vertical_axis_is_up_in_all_views_not_along_it(name, up):
 
 @pytest.mark.parametrize("up", UPS)
 def test_steps_to_the_right_keep_the_picture_upright_and_complete_a_turn(up):
-    camera = vtkCamera()
-    look_from(camera, "iso", up)
+    camera = looking("iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
     for _ in range(24):
         turn(camera, 15, 0, up)
@@ -56,8 +60,7 @@ def test_steps_to_the_right_keep_the_picture_upright_and_complete_a_turn(up):
 
 
 def test_a_step_to_the_right_moves_the_front_to_the_right():
-    camera = vtkCamera()
-    look_from(camera, "+x", "z")
+    camera = looking("+x", "z")
     right = np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp())
     turn(camera, 15, 0, "z")
     near = np.array([1.0, 0.0, 0.0])  # of the mesh, at the camera's side
@@ -66,8 +69,7 @@ def test_a_step_to_the_right_moves_the_front_to_the_right():
 
 
 def test_right_is_right_in_an_upside_down_picture_too():
-    camera = vtkCamera()
-    look_from(camera, "+x", "z")
+    camera = looking("+x", "z")
     camera.Roll(180)
     turn(camera, 15, 0, "z")
     near = np.array([1.0, 0.0, 0.0])
@@ -75,8 +77,7 @@ def test_right_is_right_in_an_upside_down_picture_too():
 
 
 def test_steps_upwards_pass_the_poles_and_complete_a_turn():
-    camera = vtkCamera()
-    look_from(camera, "+x", "z")
+    camera = looking("+x", "z")
     before = np.array(camera.GetPosition())
     for _ in range(24):
         turn(camera, 0, 15, "z")
@@ -99,8 +100,7 @@ def pressed(key, held=PLAIN):
 
 @pytest.mark.parametrize("up", UPS)
 def test_arrows_rotate_about_the_vertical_axis_and_pan_with_shift(up):
-    camera = vtkCamera()
-    look_from(camera, "iso", up)
+    camera = looking("iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
     move_of(pressed(Qt.Key.Key_Right), up)(camera)
     assert not np.allclose(camera.GetPosition(), before)

@@ -9,10 +9,9 @@ from PySide6.QtGui import QImage
 from hexmend.quality import METRICS, measure
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.name_list import NameList
-from hexmend_app.picture import ColourBarStyle, Page, Scene, TextPlace
+from hexmend_app.picture import ColourBarStyle, Colours, Page, Range, Scene, TextPlace
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
-from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED, Colouring, are_invalid, range_label, resolve
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.colour.material_colours import material_table

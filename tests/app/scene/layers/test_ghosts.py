@@ -6,11 +6,19 @@ import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend import Cells, Mesh
+from hexmend_app.picture import Cut, Isolate, Show
+from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.visibility import Isolate, Show
 from hexmend_app.scene.camera.vtk_pose import apply_pose
+from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
+from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines
+from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
 from hexmend_app.scene.layers.overlay_layers import Ghosts
+from hexmend_app.scene.layers.surface import Surface, quads
+from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.pane import Pane
 from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 
@@ -73,3 +81,147 @@ def test_ghosts_follow_the_nodes():
     ghosts.draw(frame(), None, keep)
     assert not ghosts.shown
     assert ghosts.places.shape == (0, 3)
+
+
+# Non-hexahedral cells: their outer faces are drawn, but no faces that they share with other cells.
+
+
+OFF = Look(structure=Structure(frozenset()))
+
+
+def hybrid() -> Mesh:
+    """Return a mesh of 2 × 2 hexes with a pyramid on two of them, and a tetrahedron between the pyramids."""
+    bare = grid(2, 2, 1)
+    top = bare.hexes[:2, 4:]
+    tips = bare.points[top].mean(axis=1) + [0, 0, 1]
+    a, b = bare.n_nodes, bare.n_nodes + 1
+    ridge = np.intersect1d(top[0], top[1])
+    tetra = np.array([[*ridge, a, b]])
+    return Mesh(
+        np.vstack([bare.points, tips]),
+        bare.hexes,
+        cells=(Cells("pyramid", np.column_stack([top, [a, b]])), Cells("tetra", tetra), Cells("line", tetra[:, :2])),
+    )
+
+
+def test_the_faces_of_each_cell_type_are_closed():
+    for faces in FACES.values():
+        edges = [frozenset(pair) for face in faces for pair in zip(face, (*face[1:], face[0]), strict=True)]
+        assert all(edges.count(edge) == 2 for edge in edges)
+
+
+def test_shared_faces_are_omitted():
+    triangles, quads = outer_faces(hybrid())
+    assert len(quads) == 0  # the pyramids stand on hexes
+    assert len(triangles) == 2 * 4 + 4 - 2 * 2
+
+
+def test_a_cut_removes_cells_by_their_centres():
+    triangles, _ = outer_faces(hybrid(), Cut.at((1, 0, 0), (0.7, 0, 0)))
+    assert len(triangles) == 4
+
+
+def test_they_are_drawn_unless_switched_off(off_screen):
+    mesh, viewport = hybrid(), off_screen(240, 180)
+    layer = viewport.overlay_layers.optional["others"]
+    viewport.draw(frame_of(mesh))
+    viewport.view("iso")
+    seen, poly = viewport.pixels(), layer.poly
+    assert layer.shown
+    assert viewport.places[:, 2].max() == 2
+    viewport.draw(frame_of(mesh))
+    assert layer.poly is poly
+    viewport.draw(frame_of(mesh, OFF))
+    without = viewport.pixels()
+    assert not layer.shown
+    assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
+
+
+# Outlines of invalid hexes, and of the regions that they form.
+
+
+WHITE = np.array([255, 255, 255])
+
+
+def board(side, colours, own_points=False):
+    """Return a board of unit squares with the given colours, row by row."""
+    x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
+    points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
+    low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
+    faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
+    if own_points:
+        points, faces = points[faces.ravel()], np.arange(4 * len(faces)).reshape(-1, 4)
+    return quads(points, faces, colours, np.arange(len(faces)).astype(np.int32))
+
+
+def in_one_colour(side, colour):
+    return np.tile(np.array(colour, np.uint8), (side * side, 1))
+
+
+@pytest.mark.parametrize("own_points", [False, True], ids=["shared points", "own points"])
+def test_the_outline_of_a_region_consists_of_edges_of_a_single_polygon(own_points):
+    chosen = [(1, 1), (2, 1), (1, 2), (2, 2)]
+    marked = np.isin(np.arange(16), [row * 4 + column for column, row in chosen])
+    colours = np.where(marked[:, None], in_one_colour(4, INVERTED), in_one_colour(4, (90, 90, 90)))
+    poly = board(4, colours, own_points)
+    ends, once = outlines(poly, marked)
+    assert (len(ends), once.sum()) == (12, 8)
+    middles = poly.points[ends].mean(axis=1)
+    assert (np.isin(middles[once], (1, 3)).any(axis=1)).all()  # on the square around the four
+    assert not (np.isin(middles[~once], (1, 3)).any(axis=1)).any()
+
+
+def white_inside(side, size, colour=INVERTED):
+    """Count the white pixels in the middle third of a picture of a board of invalid hexes."""
+    prepare_off_screen()
+    with Stage((size, size)) as stage:
+        pane = Pane(stage.window)
+        outline = InvalidOutline(pane.renderer)
+        outline.outline(board(side, in_one_colour(side, colour)))
+        pane.camera.SetPosition(0, 0, 1)
+        pane.renderer.ResetCamera()
+        seen = stage.picture().astype(int)
+    third = size // 3
+    return int((np.abs(seen[third:-third, third:-third] - WHITE).sum(axis=2) < 30).sum())
+
+
+def test_large_hexes_are_outlined_individually_and_small_ones_by_region():
+    for colour in (INVERTED, INVALID_INSIDE):
+        assert white_inside(8, 300, colour) > 200
+    assert white_inside(80, 300) == 0
+
+
+# Edges of polygons: lighter on dark colours, and faded out on small polygons.
+
+
+def squares(side, colour, size=320, pen=1.0):
+    """Return the brightness of the inner pixels of a picture filled by a board of side × side squares."""
+    with Stage((size, size)) as stage:
+        pane = Pane(stage.window)
+        surface = Surface(pane.renderer, pen)
+        surface.replace(board(side, in_one_colour(side, colour)))
+        pane.camera.SetPosition(0, 0, 1)
+        pane.renderer.ResetCamera()
+        pane.camera.SetParallelProjection(True)
+        pane.camera.SetParallelScale(0.5 * side)
+        seen = stage.picture().astype(float).mean(axis=2)
+    return seen[20:-20, 20:-20]
+
+
+BRIGHT, DARK = (250, 230, 40), (68, 1, 84)
+
+
+def test_edges_are_dark_on_bright_colours_and_light_on_dark_ones():
+    bright, dark = squares(8, BRIGHT), squares(8, DARK)
+    assert bright.min() < np.median(bright) - 30
+    assert bright.max() < np.median(bright) + 5
+    assert dark.max() > np.median(dark) + 20
+
+
+@pytest.mark.parametrize("colour", [BRIGHT, DARK])
+def test_edges_fade_out_on_small_polygons(colour):
+    face = np.median(squares(4, colour))
+    large, small, smallest = (np.abs(squares(side, colour) - face).mean() for side in (80, 160, 250))
+    assert large > 10  # 4 pixels a square: lines
+    assert small < 0.5 * large  # 2 pixels, of which half were lines
+    assert smallest < 1  # 1.3 pixels: none

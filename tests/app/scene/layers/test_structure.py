@@ -3,34 +3,24 @@
 import numpy as np
 import pytest
 
+from hexmend import Mesh, measure
 from hexmend.boundary import NodeClass
 from hexmend.gallery.gallery_mesh import extrude
 from hexmend.gallery.pentagon import fan, subdivide
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
+from hexmend_app.picture import Box, Cut, CutStyle, LineStyle, Show
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.cut_shapes import Box
-from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
-from hexmend_app.scene.layers.optional.structure import (
-    BOUNDARY,
-    FREE,
-    IRREGULAR_NODE,
-    KINDS,
-    LOCKED,
-    PINNED,
-    VALENCES,
-)
+from hexmend_app.scene.layers.optional.structure import BOUNDARY, FREE, IRREGULAR_NODE, KINDS, LOCKED, PINNED, VALENCES
+from hexmend_app.scene.layers.silhouette import form_lines
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.mesh.structure import sharp_edges
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
 from tests.app.features.structure.layers import count
-from tests.app.scene.showing import frame_of
+from tests.app.scene.showing import MESH, frame_of
 from tests.app.state.mesh.test_structure import tetrahedron
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 
 
 def five_blocks(segments, layers):
@@ -100,16 +90,16 @@ def test_nodes_of_locked_hexes_are_marked(draw):
     assert count(draw.viewport.pixels(), LOCKED) == 0
 
 
-@pytest.mark.parametrize(
-    "cut",
-    [
-        BELOW,
-        Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
-        Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
-        Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
-        Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
-    ],
-)
+CUTS = [
+    BELOW,
+    Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
+    Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
+    Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
+    Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
+]
+
+
+@pytest.mark.parametrize("cut", CUTS)
 def test_only_shown_hexes_have_marks(draw, cut):
     wanted = Structure.of("irregular", "sharp", "fixed")
     draw(FIVE, wanted, cut=cut)
@@ -150,17 +140,14 @@ def test_boundary_nodes_have_the_colour_of_their_class(draw):
 
 def test_nodes_that_were_moved_off_the_boundary_have_a_colour_of_their_own(draw):
     mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    assert count(draw(mesh.with_points(points), Structure.of("kinds")), KINDS[LEFT]) > 10
+    moved = displaced(mesh, (mesh.points == [3, 3, 3]).all(axis=1), 0.2)
+    assert count(draw(moved, Structure.of("kinds")), KINDS[LEFT]) > 10
     assert count(draw(grid(3), Structure.of("kinds")), KINDS[LEFT]) == 0
 
 
 def test_a_view_beside_the_first_does_not_mark_nodes_that_have_not_moved_there():
     mesh = grid(3).keeping_surface()
-    points = mesh.points.copy()
-    points[(points == [3, 3, 3]).all(axis=1)] += 0.2
-    moved = mesh.with_points(points)
+    moved = displaced(mesh, (mesh.points == [3, 3, 3]).all(axis=1), 0.2)
     figures = measure(moved.points, moved.hexes)
     classes = classify_boundary(moved, figures, 40.0)
     first = Frame(moved, figures, kinds=classes.kinds, original_kinds=classes.original_kinds)
@@ -202,3 +189,89 @@ def test_an_unchanged_interface_is_not_built_again_and_moves_with_its_nodes(laye
     assert layer.poly is poly
     layer.draw(frame_of(TWO.with_points(TWO.points + 1)), None)
     assert (layer.places[:, 0] == 3).all()
+
+
+# Original surface: visible where the boundary of the mesh has moved, and nowhere else.
+
+
+ON, OFF = Look(structure=Structure.of("original")), Look()
+
+
+def frame(points, look=ON):
+    mesh = MESH.with_points(points)
+    return Frame(mesh, measure(points, MESH.hexes), look=look, original=MESH.points)
+
+
+@pytest.fixture
+def drawn(off_screen):
+    """A function that draws a frame and returns its pixels; its attribute `surface` is the layer."""
+    viewport = off_screen(240, 180)
+    viewport.draw(frame(MESH.points))
+    viewport.view("iso")
+
+    def draw(one):
+        viewport.draw(one)
+        viewport.moving()
+        return viewport.pixels()
+
+    draw.surface = viewport.overlay_layers.optional["original"]
+    return draw
+
+
+def differ(one, other):
+    return int((np.abs(one - other).sum(axis=2) > 20).sum())
+
+
+def test_it_is_hidden_where_the_boundary_is_unchanged(drawn):
+    assert differ(drawn(frame(MESH.points, OFF)), drawn(frame(MESH.points))) < 40  # a rim
+
+
+def test_it_is_visible_around_a_shrunk_mesh(drawn):
+    centre = MESH.points.mean(axis=0)
+    shrunk = centre + 0.7 * (MESH.points - centre)
+    without, seen = drawn(frame(shrunk, OFF)), drawn(frame(shrunk))
+    assert differ(without, seen) > 2000
+    assert drawn.surface.shown
+    np.testing.assert_array_equal(np.ptp(drawn.surface.places, axis=0), 4)
+
+
+def test_faces_of_hidden_hexes_are_not_drawn(drawn):
+    half = Look(cut=Cut.at((0, 0, 1), (2, 2, 1.9)), structure=Structure.of("original"))
+    drawn(frame(MESH.points))
+    assert len(drawn.surface.places) == MESH.topology.boundary.sum()
+    drawn(frame(MESH.points, half))
+    assert 0 < np.ptp(drawn.surface.places, axis=0)[2] < 3
+    drawn(frame(MESH.points, Look(structure=Structure.of("original"), show=Show(peel=1))))
+    assert not drawn.surface.shown
+    drawn(frame(MESH.points))
+    assert drawn.surface.shown
+
+
+# Sharp edges, and the decision whether they show the shape of a body.
+
+
+@pytest.mark.parametrize("size", [(1, 1, 1), (3, 2, 4)])
+def test_a_box_has_twelve_sharp_lines(size):
+    mesh = grid(*size)
+    edges = sharp_edges(mesh.points, mesh.topology.boundary_faces)
+    assert len(edges) == 4 * sum(size)
+    ends = mesh.points[edges]
+    on_sides = ((ends == 0) | (ends == size)).all(axis=1)  # by axis: on the same two sides with both ends
+    assert (on_sides.sum(axis=1) >= 2).all()
+    assert form_lines(edges)
+
+
+def test_sharp_edges_depend_on_the_angle():
+    mesh = grid(2, 1, 1)
+    points = mesh.points.copy()
+    points[points[:, 0] == 2, 2] += np.tan(np.radians(40))
+    faces = mesh.topology.boundary_faces
+    assert len(sharp_edges(points, faces, 39)) == len(sharp_edges(points, faces, 41)) + 2
+
+
+def test_sharp_edges_of_a_ball_do_not_form_lines():
+    mesh = grid(6)
+    p = mesh.points / 3 - 1
+    size = np.linalg.norm(p, axis=1, keepdims=True)
+    ball = p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9)
+    assert not form_lines(sharp_edges(ball, mesh.topology.boundary_faces))

@@ -6,22 +6,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend_app.picture import (
-    AxesStyle,
-    Camera,
-    Captions,
-    ColourBarStyle,
-    Colours,
-    Cut,
-    Page,
-    PicturePanel,
-    Plane,
-    Range,
-    Scene,
-    Show,
-    TextPlace,
-)
+from hexmend_app.picture import Camera, Colours, Cut, PicturePanel, Plane, Range, Scene, Show
 from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Page, TextPlace
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -43,17 +30,17 @@ def pixels(sheet):
     return np.asarray(sheet.image()).astype(int)
 
 
-@pytest.mark.parametrize(
-    ("page", "size"),
-    [
-        (Page(85, 60), (1004, 709)),
-        (Page(85, 60, dpi=127), (425, 300)),
-        (Page(pixels=(333, 217)), (333, 217)),
-        (Page(pixels=(400, 300), dpi=97.3), (400, 300)),
-        (Page(width=80, dpi=100), (315, 197)),
-        (Page(pixels=(17, 16)), (17, 16)),
-    ],
-)
+SIZES = [
+    (Page(85, 60), (1004, 709)),
+    (Page(85, 60, dpi=127), (425, 300)),
+    (Page(pixels=(333, 217)), (333, 217)),
+    (Page(pixels=(400, 300), dpi=97.3), (400, 300)),
+    (Page(width=80, dpi=100), (315, 197)),
+    (Page(pixels=(17, 16)), (17, 16)),
+]
+
+
+@pytest.mark.parametrize(("page", "size"), SIZES)
 def test_a_page_has_exactly_the_pixels_asked_for(tmp_path, page, size):
     sheet = drawn(grid(2), page=page)
     assert sheet.size == page.size == size

@@ -11,14 +11,12 @@ import pytest
 from PIL import Image
 from PySide6.QtGui import QOpenGLContext
 
+from hexmend import FileError, write
 from hexmend.cli.main import main
-from hexmend.errors import FileError
-from hexmend.io import write
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import parse_plane, with_options
-from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
+from hexmend_app.picture import ColourBarStyle, Cut, CutStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -73,39 +71,38 @@ def test_a_quality_range_hides_the_others(pictures):
     assert ink(pictures("--key", "show.quality=0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["--clip", "w"], "--clip 'w' cannot be used"),
-        (["--clip", "0,0,0"], "a direction that is not zero"),
-        (["--clip", "x:1.5"], "a position from 0 to 1"),
-        (["--key", "cut.depth={ low = 1 }", "--smooth"], "has whole hexes"),
-        (["--key", "cut.sphere={ size = 1 }"], "[cut] sphere has an unknown key 'size'"),
-        (["--key", "cut.depth=deep"], "[cut] depth"),
-        (["--key", "paper.margin=1"], "unknown key 'paper'"),
-        (["--key", "page.margin"], "TABLE.KEY=VALUE"),
-        (["--key", "page.margin=wide"], "[page] margin = 'wide' is not a number"),
-        (["--size", "big"], "as in 1600x1000"),
-        (["--size", "16x16"], "64 to 8192 pixels"),
-        (["--key", "show.quality=0.8,0.2"], "the lower number first"),
-        (["--colour-range", "0.5,0.5"], "the lower number first"),
-        (["--metric", "beauty"], "there is no metric 'beauty'"),
-        (["--colour-map", "jet"], "expected one of viridis"),
-        (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
-        (["--view", "up"], "from = 'up' is unknown"),
-        (["--view", "0,0,0"], "expected a nonzero vector"),
-    ],
-)
-def test_invalid_options_are_reported(words, message, tmp_path, capsys):
-    write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
-    assert message in capsys.readouterr().err
+INVALID_OPTIONS = [
+    (["--clip", "w"], "--clip 'w' cannot be used"),
+    (["--clip", "0,0,0"], "a direction that is not zero"),
+    (["--clip", "x:1.5"], "a position from 0 to 1"),
+    (["--key", "cut.depth={ low = 1 }", "--smooth"], "has whole hexes"),
+    (["--key", "cut.sphere={ size = 1 }"], "[cut] sphere has an unknown key 'size'"),
+    (["--key", "cut.depth=deep"], "[cut] depth"),
+    (["--key", "paper.margin=1"], "unknown key 'paper'"),
+    (["--key", "page.margin"], "TABLE.KEY=VALUE"),
+    (["--key", "page.margin=wide"], "[page] margin = 'wide' is not a number"),
+    (["--size", "big"], "as in 1600x1000"),
+    (["--size", "16x16"], "64 to 8192 pixels"),
+    (["--key", "show.quality=0.8,0.2"], "the lower number first"),
+    (["--colour-range", "0.5,0.5"], "the lower number first"),
+    (["--metric", "beauty"], "there is no metric 'beauty'"),
+    (["--colour-map", "jet"], "expected one of viridis"),
+    (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
+    (["--view", "up"], "from = 'up' is unknown"),
+    (["--view", "0,0,0"], "expected a nonzero vector"),
+]
 
 
-def test_at_most_12_meshes_are_drawn(tmp_path, capsys):
+@pytest.mark.parametrize(("words", "message"), INVALID_OPTIONS)
+def test_invalid_options_are_reported(words, message, tmp_path, run_command):
     write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", *[str(tmp_path / "mesh.vtu")] * 13, "-o", str(tmp_path / "none.png")]) == 2
-    assert "at most 12" in capsys.readouterr().err
+    assert message in run_command("render", tmp_path / "mesh.vtu", "-o", tmp_path / "out.png", *words, status=2).err
+
+
+def test_at_most_12_meshes_are_drawn(tmp_path, run_command):
+    write(tmp_path / "mesh.vtu", grid(2))
+    printed = run_command("render", *[str(tmp_path / "mesh.vtu")] * 13, "-o", tmp_path / "none.png", status=2).err
+    assert "at most 12" in printed
     assert not (tmp_path / "none.png").exists()
 
 

@@ -1,23 +1,20 @@
 """Missing graphics libraries are reported with the package that contains them, without a crash."""
 
-import os
-import subprocess
 import sys
 
 import pytest
 
 from hexmend.io import write
 from tests.core.grids import grid
+from tests.programs import run_python
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems include OpenGL")
 
 
 def render(folder, **environment):
     write(folder / "mesh.vtu", grid(1))
-    return subprocess.run(
-        [sys.executable, "-m", "hexmend", "render", folder / "mesh.vtu", "-o", folder / "out.png"],
-        env=os.environ | environment, capture_output=True, text=True,
-    )  # fmt: skip
+    words = ["render", folder / "mesh.vtu", "-o", folder / "out.png"]
+    return run_python("-m", "hexmend", *words, variables=environment)
 
 
 def test_without_the_library(tmp_path):

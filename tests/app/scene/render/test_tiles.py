@@ -2,11 +2,15 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from hexmend_app.picture import Camera, Cut, CutStyle, Page, PicturePanel, Plane, Scene, WipeLayout
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.rasters import rasters
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
 from tests.core.grids import grid, scrambled
@@ -22,15 +26,15 @@ def images(scene, **how):
     return [np.asarray(image).astype(int) for image in found]
 
 
+PICTURES = [
+    (1, "transparent", {"structure": Structure.of("sharp", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))}),
+    (3, "white", {"camera": Camera((0.3, -1.0, 0.2)), "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH)}),
+    (1, "white", {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)}),
+]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("supersampling", "background", "tables"),
-    [
-        (1, "transparent", {"structure": Structure.of("sharp", "fixed"), "cut": Cut((Plane((0, 0, 1), 0.6),))}),
-        (3, "white", {"camera": Camera((0.3, -1.0, 0.2)), "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH)}),
-        (1, "white", {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)}),
-    ],
-)
+@pytest.mark.parametrize(("supersampling", "background", "tables"), PICTURES)
 def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, supersampling):
     scene = Scene(page=Page(pixels=(601, 400), supersampling=supersampling, background=background), **tables)
     (whole,), (parts,) = (images(scene, **how) for how in ({}, {"at_once": FEW}))
@@ -62,3 +66,16 @@ def test_tiles_cover_a_page_once_and_none_is_too_large(size, fine, pen):
     alone = fine * max(size) <= 16384 and fine * fine * size[0] * size[1] <= AT_ONCE
     assert (len(list(tiles)) == 1) == alone
     assert tiles.around == 0 or not alone
+
+
+# Counts of colours, compared with those of rows.
+
+
+@given(
+    arrays(np.uint8, st.tuples(st.integers(0, 9), st.integers(1, 9), st.just(3)), elements=st.sampled_from([0, 1, 255]))
+)
+def test_counts_agree_with_those_of_unique_rows(pixels):
+    colours, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
+    found = count_colours(pixels)
+    np.testing.assert_array_equal(found[0], colours)
+    np.testing.assert_array_equal(found[1], counts)

@@ -5,8 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.mesh.mesh import Mesh
-from hexmend.quality import measure
+from hexmend import Mesh, measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle

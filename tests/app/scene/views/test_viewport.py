@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
+from hexmend_app.picture import Colours, Cut, CutStyle, LineStyle, Range, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.colours import Colours, Range
-from hexmend_app.picture.cut import Cut, CutStyle
-from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import INVERTED
 from hexmend_app.scene.views.frame import Frame

@@ -4,11 +4,20 @@ from functools import partial
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QCheckBox, QLineEdit, QMainWindow, QVBoxLayout, QWidget
 
+from hexmend import METHODS, METRICS
+from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
+from hexmend_app.shell.panels.docks import Docks
+from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.section import Section
+from tests.core.grids import grid
 
 
 @pytest.fixture
@@ -79,20 +88,20 @@ ENTRIES = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("text", "names"),
-    [
-        ("undo", ["Undo", "Reset", "Redo"]),
-        ("mend", ["Mend", "Recommended smoothing"]),
-        ("lap", ["Smart Laplacian"]),
-        ("jac colour", ["Scaled Jacobian"]),
-        ("run", ["Run or pause", "Tolerance"]),
-        ("as mesh", ["Save mesh as…", "Undo"]),
-        ("method", ["Mend", "Smart Laplacian", "Run or pause"]),
-        ("  UNDO ", ["Undo", "Reset", "Redo"]),
-        ("nonsense", []),
-    ],
-)
+RANKED = [
+    ("undo", ["Undo", "Reset", "Redo"]),
+    ("mend", ["Mend", "Recommended smoothing"]),
+    ("lap", ["Smart Laplacian"]),
+    ("jac colour", ["Scaled Jacobian"]),
+    ("run", ["Run or pause", "Tolerance"]),
+    ("as mesh", ["Save mesh as…", "Undo"]),
+    ("method", ["Mend", "Smart Laplacian", "Run or pause"]),
+    ("  UNDO ", ["Undo", "Reset", "Redo"]),
+    ("nonsense", []),
+]
+
+
+@pytest.mark.parametrize(("text", "names"), RANKED)
 def test_matches_in_names_rank_before_matches_in_help(text, names):
     assert [entry.name for entry in ranked(ENTRIES, text)] == names
 
@@ -106,3 +115,77 @@ def test_commands_that_cannot_be_run_now_come_last_and_only_for_a_text():
     assert ranked([film, *ENTRIES], "") == ENTRIES
     assert ranked([film, *ENTRIES], "animation") == [film]
     assert [entry.name for entry in ranked([film, *ENTRIES], "save")] == ["Save mesh as…", "Save film…"]
+
+
+# Entries of the command palette.
+
+
+@pytest.fixture
+def host(hosted):
+    return hosted(grid(3))
+
+
+@pytest.fixture
+def panel(qtbot):
+    """A panel with four check boxes: in a collapsed section, disabled, hidden, and plain."""
+    widget = QWidget()
+    boxes = {name: QCheckBox(name) for name in ("Folded", "Disabled", "Hidden", "Plain")}
+    for name, box in boxes.items():
+        set_help(box, f"{name} box", f"The box that is {name.lower()}.")
+    boxes["Disabled"].setEnabled(False)
+    column = QVBoxLayout(widget)
+    column.addWidget(Section("More", boxes["Folded"], ""))
+    for name in ("Disabled", "Hidden", "Plain"):
+        column.addWidget(boxes[name])
+    boxes["Hidden"].hide()
+    return Panel(id="boxes", title="Boxes", widget=widget, place=PanelPlace.TOOLS, help="Some boxes.")
+
+
+def test_panels_and_their_controls_have_entries_that_show_and_focus_them(panel, shown):
+    other = Panel(id="other", title="Other", widget=QWidget(), place=PanelPlace.TOOLS, order=1)
+    main = QMainWindow()
+    docks = Docks(main)
+    docks.add([panel, other])
+    shown(main, 900, 500)
+    docks.show_panel("other")
+    entries = {entry.title: entry for entry in panel_entries(docks, [panel, other])}
+    assert list(entries) == ["Panel: Boxes", "Panel: Other", "In Boxes: Folded box", "In Boxes: Plain box"]
+    entries["In Boxes: Folded box"].run()
+    box = next(one for one in panel.widget.findChildren(QCheckBox) if one.text() == "Folded")
+    assert docks.in_front("boxes")
+    assert box.isVisible()
+    assert box.hasFocus()
+    entries["Panel: Other"].run()
+    assert docks.in_front("other")
+
+
+def test_choosing_a_method_keeps_its_last_parameters(host):
+    run_setup = host.session.run_setup
+    entries = {entry.title: entry for entry in choice_entries(host.session)}
+    for method in METHODS.values():
+        entries[f"Method: {method.title}"].run()
+        assert run_setup.method == method.name
+        assert run_setup.smoother == run_setup.smoother_of(method.name)
+        assert method.title in run_setup.reason
+
+
+def test_choosing_a_metric_colours_by_it(host, qtbot):
+    entries = {entry.title: entry for entry in choice_entries(host.session)}
+    for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
+        with qtbot.waitSignal(host.session.view.metric_wanted) as signal:
+            entries[f"Colour by: {metric.title}"].run()
+        assert signal.args == [metric.name]
+
+
+def test_commands_have_entries_which_say_what_is_enabled_and_those_that_open_panels_have_none(qtbot):
+    executed, actions = [], {}
+    for id, enabled in (("fit", True), ("undo", False), ("panel_run", True), ("edges", True)):
+        actions[id] = QAction(f"&{id.title()}")
+        actions[id].setEnabled(enabled)
+        actions[id].triggered.connect(lambda _=False, id=id: executed.append(id))
+    actions["edges"].setCheckable(True)
+    entries = list(command_entries(actions))
+    assert [entry.title for entry in entries if entry.enabled] == ["Fit", "Edges: off"]
+    assert [entry.title for entry in entries if not entry.enabled] == ["Undo"]
+    entries[0].run()
+    assert executed == ["fit"]

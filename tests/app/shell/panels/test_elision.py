@@ -2,8 +2,10 @@
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QTabBar, QToolButton
+from PySide6.QtWidgets import QLabel, QTabBar, QToolButton
 
+from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.shell.panels.stacked_panels import stack
 from tests.app.driving import turn
 
 
@@ -25,3 +27,14 @@ def test_tabs_are_elided_and_not_scrolled(window, qtbot):
         arrows = bar.findChildren(QToolButton, options=Qt.FindChildOption.FindDirectChildrenOnly)
         assert not [button for button in arrows if button.isVisible()]
         assert bar.rect().right() >= bar.tabRect(bar.count() - 1).right() - 1
+
+
+# Panels one below the other in a scroll area.
+
+
+def test_a_panel_that_becomes_wider_is_not_cut_off(shown, qtbot):
+    label = QLabel("short")
+    area = shown(stack([Panel(id="one", title="One", widget=label, place=PanelPlace.TOOLS)]), width=60, height=80)
+    label.setText("a text that needs several times the width")
+    qtbot.waitUntil(lambda: area.width() >= label.minimumSizeHint().width())
+    assert area.widget().width() <= area.viewport().width()

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.run import StoppingCriteria, iterate
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.picture.appearance import Since
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration

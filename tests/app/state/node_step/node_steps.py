@@ -4,10 +4,9 @@ import itertools
 
 import numpy as np
 
+from hexmend import METHODS, Mesh
 from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
-from hexmend.mesh.mesh import Mesh
-from hexmend.smoothers import METHODS
 from hexmend.smoothers.global_.base import GlobalDescent
 from hexmend.smoothers.local.single_node import LocalDescent
 

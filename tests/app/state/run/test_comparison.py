@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria, smooth
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, MotionRules, StoppingCriteria, smooth
 from hexmend_app.features.compare.feature import FeatureCompare
 from hexmend_app.state.session import session_data
-from tests.app.features.smooth.test_rules import two_materials
+from tests.app.features.smooth.test_feature import two_materials
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 RULES = MotionRules(interfaces="free", fix=("inside",))

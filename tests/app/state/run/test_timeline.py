@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.run import StoppingCriteria
-from hexmend.run import smooth as smoothed
-from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend import LocalSteepestDescent, StoppingCriteria
+from hexmend import smooth as smoothed
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import smooth
 from tests.core.grids import grid, scrambled

@@ -11,14 +11,7 @@ import pytest
 from hexmend.kernels import set_threads, threads
 from hexmend_app.state.tasks.task import Task, running
 from hexmend_app.state.tasks.thread_priority import lower_priority
-
-
-@pytest.fixture
-def gate():
-    """Return an event that threads wait for; set at the end, so that a failing test leaves no thread waiting."""
-    gate = threading.Event()
-    yield gate
-    gate.set()
+from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 
 
 def test_reports_come_in_order_and_before_the_end_in_the_thread_that_made_the_task(qtbot):
@@ -145,3 +138,61 @@ def test_a_thread_keeps_its_priority_where_its_number_is_not_that_of_a_process(p
     monkeypatch.setattr(sys, "platform", platform)
     lower_priority()
     assert priorities == []
+
+
+# Cyclic garbage is collected in the thread of the window only.
+
+
+class Cycle:
+    """Object that refers to itself: garbage without other references; `collected` gets the collecting thread."""
+
+    def __init__(self, collected):
+        self.itself = self
+        weakref.finalize(self, lambda: collected.append(threading.current_thread()))
+
+
+@pytest.fixture
+def garbage(qapp):
+    return qapp.findChild(UiThreadGC)
+
+
+def test_other_threads_do_not_collect(qapp):
+    collected = []
+    Cycle(collected)
+    thread = threading.Thread(target=lambda: [[] for _ in range(100_000)])
+    thread.start()
+    thread.join()
+    assert collected == []
+    gc.collect()
+    assert collected == [threading.current_thread()]
+
+
+def test_garbage_is_collected_while_the_window_waits(garbage, qtbot):
+    collected = []
+    Cycle(collected)
+    kept = [[] for _ in range(10_000)]
+    qtbot.waitUntil(lambda: bool(collected))
+    assert kept
+
+
+@pytest.mark.slow
+def test_old_garbage_is_collected_too(garbage):
+    collected = []
+    cycle = Cycle(collected)
+    gc.collect()  # moves it to the oldest generation
+    del cycle
+    kept = []
+    for _ in range(200):
+        kept.append([[] for _ in range(1000)])
+        garbage.collect()
+    assert collected
+
+
+def test_frozen_objects_are_not_examined_but_newer_ones_are(garbage):
+    collected, before = [], Cycle([])
+    gc.collect()  # or garbage would be frozen too
+    garbage.freeze()
+    assert not any(one is before for one in gc.get_objects())
+    Cycle(collected)
+    gc.collect()
+    assert collected

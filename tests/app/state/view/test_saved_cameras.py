@@ -5,8 +5,7 @@ import threading
 import pytest
 
 from benchmarks.window.windows import save_and_wait
-from hexmend import gallery
-from hexmend.errors import FileError, ParameterError
+from hexmend import FileError, ParameterError, gallery
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera

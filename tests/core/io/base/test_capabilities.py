@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
+from tests.core.io.kept import read_back
 
 WAYS = [(name, encoding) for name, one in FORMATS.items() for encoding in one.encodings]
 SPACED = np.arange(27) * 3 + 10
@@ -148,8 +146,7 @@ def test_what_a_format_does_not_hold_does_not_keep_the_mesh_from_being_written(n
     for thing in set(Capability) - format.capabilities:
         for k, mesh in enumerate(MESHES[thing]):
             path = in_new_folder(tmp_path, f"{thing.name}-{k}{format.suffixes[0]}")
-            io.write(path, mesh, encoding=encoding)
-            assert io.read(path).n_hexes == mesh.n_hexes
+            assert read_back(path, mesh, encoding=encoding).n_hexes == mesh.n_hexes
 
 
 @pytest.mark.parametrize(("name", "format"), FORMATS.items())
@@ -177,8 +174,7 @@ def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encod
     if Capability.NODE_DATA not in FORMATS[name].capabilities:
         assert "point data (fixed)" in io.unsupported_data(path, mesh)
         return
-    io.write(path, mesh, encoding=encoding)
-    back = io.read(path)
+    back = read_back(path, mesh, encoding=encoding)
     np.testing.assert_array_equal(back.node_data["fixed"], values)
     np.testing.assert_array_equal(back.pinned, pinned)
 
@@ -189,8 +185,7 @@ def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     mesh = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], data={"h": np.arange(3.0)[None]})
-    io.write(path, mesh.replace(hex_data={"h": np.arange(8.0)}), encoding=encoding)
-    back = io.read(path)
+    back = read_back(path, mesh.replace(hex_data={"h": np.arange(8.0)}), encoding=encoding)
     np.testing.assert_array_equal(back.hex_data["h"], np.arange(8.0))
     (tetra,) = back.cells
     kept = [values for values in tetra.data.values() if np.shape(values) == (1, 3)]
@@ -203,20 +198,17 @@ def test_nodes_that_other_cells_fix_make_no_set_or_data_called_fixed(name, encod
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     first = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]])
-    io.write(path, first, encoding=encoding)
-    mesh = io.read(path)
+    mesh = read_back(path, first, encoding=encoding)
     assert mesh.pinned[[18, 19, 21, 27]].all()
     assert not any(words.startswith("fixed nodes") for words in io.unsupported_data(path, mesh))
-    io.write(path, mesh, encoding=encoding)
-    back = io.read(path)
+    back = read_back(path, mesh, encoding=encoding)
     assert not {"fixed", "required"} & {*back.node_data, *back.node_sets}
     np.testing.assert_array_equal(back.pinned, mesh.pinned)
     mesh = mesh.replace(pinned=mesh.pinned | (np.arange(28) == 13))  # by the user
     if Capability.FIXED_NODES not in FORMATS[name].capabilities:
         assert "fixed nodes" in io.unsupported_data(path, mesh)
         return
-    io.write(path, mesh, encoding=encoding)
-    np.testing.assert_array_equal(io.read(path).pinned, mesh.pinned)
+    np.testing.assert_array_equal(read_back(path, mesh, encoding=encoding).pinned, mesh.pinned)
 
 
 def test_a_set_called_fixed_that_says_which_nodes_are_is_not_written_twice(tmp_path):

@@ -4,8 +4,7 @@ import signal
 
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.io.storage import subprocess_reader
 from tests.core.grids import grid
 

@@ -5,8 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, structured
 from tests.core.io.formats.vtk.test_vtkhdf import hand_made
@@ -143,15 +142,15 @@ def test_a_soft_link_inside_the_file_is_followed(suffix, tmp_path):
     np.testing.assert_array_equal(linked.points, plain.points)
 
 
-@pytest.mark.parametrize(
-    ("suffix", "words"),
-    [
-        (".med", "holds no mesh"),
-        (".vtkhdf", "no group VTKHDF"),
-        (".cgns", "no CGNSBase_t"),
-        (".exo", "no dimension num_nodes"),
-    ],
-)
+OF_ANOTHER_FORMAT = [
+    (".med", "holds no mesh"),
+    (".vtkhdf", "no group VTKHDF"),
+    (".cgns", "no CGNSBase_t"),
+    (".exo", "no dimension num_nodes"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "words"), OF_ANOTHER_FORMAT)
 def test_hdf5_of_another_format_is_not_called_damaged(suffix, words, tmp_path):
     with h5py.File(tmp_path / f"a{suffix}", "w") as file:
         file["numbers"] = [1, 2, 3]

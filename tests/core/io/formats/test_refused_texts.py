@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.io.formats.abaqus.test_abaqus import DECK, cube
-from tests.core.io.formats.gmsh.test_gmsh import HEAD, NODES
-from tests.core.io.formats.gmsh.test_version_1 import FIRST_VERSION
+from tests.core.io.formats.gmsh.test_gmsh import FIRST_VERSION, HEAD, NODES
 from tests.core.io.formats.nastran.test_nastran import CUBE, GRIDS
 from tests.core.io.formats.ovm.test_ovm import written
 from tests.core.io.formats.test_su2 import POINTS, ZONE
+from tests.core.io.kept import assert_refused
 
 SOUND = {
     "a.su2": ZONE,
@@ -135,21 +133,14 @@ WHOLE = {
 }  # fmt: skip
 
 
-def check(path, text, words):
-    path.write_text(text)
-    with pytest.raises(FileError) as error:
-        io.read(path)
-    assert words in str(error.value)
-
-
 @pytest.mark.parametrize(
     ("name", "old", "new", "words"), [(name, *row) for name, rows in SPOILT.items() for row in rows]
 )
 def test_what_is_spoilt_in_a_sound_text_is_named(name, old, new, words, tmp_path):
     assert old in SOUND[name]
-    check(tmp_path / name, SOUND[name].replace(old, new), words)
+    assert_refused(tmp_path / name, words, SOUND[name].replace(old, new))
 
 
 @pytest.mark.parametrize(("name", "text", "words"), [(name, *row) for name, rows in WHOLE.items() for row in rows])
 def test_what_is_wrong_with_a_text_is_named(name, text, words, tmp_path):
-    check(tmp_path / name, text, words)
+    assert_refused(tmp_path / name, words, text)

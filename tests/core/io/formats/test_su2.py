@@ -2,16 +2,14 @@
 
 import numpy as np
 
-from hexmend import io
-from tests.core.io.kept import with_everything
+from tests.core.io.kept import read_back, read_content, with_everything
 
 POINTS = "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
 ZONE = f"NDIME= 3\nNELEM= 1\n12 0 1 2 3 4 5 6 7 0\nNPOIN= 8 8\n{POINTS}NMARK= 1\nMARKER_TAG= low\nMARKER_ELEMS= 1\n9 0 3 2 1\n"
 
 
 def read(text, tmp_path):
-    (tmp_path / "a.su2").write_text(text)
-    return io.read(tmp_path / "a.su2")
+    return read_content(tmp_path / "a.su2", text)
 
 
 def test_all_zones_are_read_each_with_its_own_nodes(tmp_path):
@@ -26,7 +24,6 @@ def test_all_zones_are_read_each_with_its_own_nodes(tmp_path):
 
 
 def test_markers_are_written(tmp_path):
-    io.write(tmp_path / "a.su2", with_everything())
-    (quads,) = (one for one in io.read(tmp_path / "a.su2").cells if one.kind == "quad")
+    (quads,) = (one for one in read_back(tmp_path / "a.su2", with_everything()).cells if one.kind == "quad")
     np.testing.assert_array_equal(quads.nodes, with_everything().cells[0].nodes[[1, 3]])
     assert quads.sets["lid"].tolist() == [0, 1]

@@ -73,17 +73,17 @@ def test_blocks_make_the_rows(path, held):
     np.testing.assert_array_equal(whole.ravel(), np.frombuffer(DATA, ">i4", 60_000, 4))
 
 
+ENDS_OF_NUMBERS = [
+    ("1 2 3 4\nEND", 4, "END"),
+    ("1 2 3 4 5 END", 4, "5 END"),
+    ("1 2 3 4 2nd", 4, "2nd"),
+    ("1 2 3 4", 4, ""),
+    ("  1\n\n2\t3 4   \n", 4, ""),
+]
+
+
 @pytest.mark.parametrize("held", [True, False])
-@pytest.mark.parametrize(
-    ("text", "count", "rest"),
-    [
-        ("1 2 3 4\nEND", 4, "END"),
-        ("1 2 3 4 5 END", 4, "5 END"),
-        ("1 2 3 4 2nd", 4, "2nd"),
-        ("1 2 3 4", 4, ""),
-        ("  1\n\n2\t3 4   \n", 4, ""),
-    ],
-)
+@pytest.mark.parametrize(("text", "count", "rest"), ENDS_OF_NUMBERS)
 def test_numbers_end_where_they_did(tmp_path, monkeypatch, held, text, count, rest):
     monkeypatch.setattr("hexmend.io.base.cursor._TEXT", 4)  # words lie across the blocks
     (tmp_path / "file").write_text(text)
@@ -92,16 +92,16 @@ def test_numbers_end_where_they_did(tmp_path, monkeypatch, held, text, count, re
     assert cursor.data[cursor.pos :].decode().strip() == rest
 
 
+ERRORS = [
+    ("1 2\n3 x4\n5 6", "row 2 of 3 .line 2.: expected a whole number"),
+    ("1 2\n3 4\nEND", "ends after 2 of 3 rows: line 3 continues with 'END'"),
+    ("1 2\n3 4\n", "ends after 2 of 3 rows: the file ends at line 3"),
+    ("1 2\n3 4\n5 99999999999999999999\n", "a whole number of more than 64 bits before line 4"),
+]
+
+
 @pytest.mark.parametrize("held", [True, False])
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("1 2\n3 x4\n5 6", "row 2 of 3 .line 2.: expected a whole number"),
-        ("1 2\n3 4\nEND", "ends after 2 of 3 rows: line 3 continues with 'END'"),
-        ("1 2\n3 4\n", "ends after 2 of 3 rows: the file ends at line 3"),
-        ("1 2\n3 4\n5 99999999999999999999\n", "a whole number of more than 64 bits before line 4"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), ERRORS)
 def test_errors_in_numbers_are_those_of_a_text_that_is_held(tmp_path, held, text, message):
     (tmp_path / "file").write_text(text)
     cursor = ByteCursor(tmp_path / "file", text.encode() if held else FileBytes(tmp_path / "file"))

@@ -130,17 +130,17 @@ def test_stages_divide_the_work_and_what_is_done_never_falls():
     assert {one.path for one in reports} == {Path("a")}
 
 
-@pytest.mark.parametrize(
-    ("share", "seconds", "phrase"),
-    [
-        (0.0, 3.0, "0%"),
-        (0.01, 3.0, "1%"),
-        (0.5, 2.0, "50%, 2 s left"),
-        (0.4, 0.2, "40%, 1 s left"),
-        (0.1, 60.0, "10%, 9 min left"),
-        (1.0, 5.0, "100%, 0 s left"),
-    ],
-)
+PHRASES = [
+    (0.0, 3.0, "0%"),
+    (0.01, 3.0, "1%"),
+    (0.5, 2.0, "50%, 2 s left"),
+    (0.4, 0.2, "40%, 1 s left"),
+    (0.1, 60.0, "10%, 9 min left"),
+    (1.0, 5.0, "100%, 0 s left"),
+]
+
+
+@pytest.mark.parametrize(("share", "seconds", "phrase"), PHRASES)
 def test_the_phrase_gives_share_and_time_left(share, seconds, phrase):
     assert FileProgress(Path("a"), FileAction.READING, share, seconds).phrase == phrase
 

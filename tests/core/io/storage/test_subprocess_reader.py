@@ -15,15 +15,15 @@ def swallows(path): bytearray(1 << 50)
 """
 
 
-@pytest.mark.parametrize(
-    ("reader", "words"),
-    [
-        ("dies", "ends the library that reads it"),
-        ("fails", r"its reader fails \(ZeroDivisionError\)"),
-        ("swallows", "needs more memory than"),
-        ("refuses", r"^some\.dat: has a hole in it\. Mend it\.$"),
-    ],
-)
+READER_ENDINGS = [
+    ("dies", "ends the library that reads it"),
+    ("fails", r"its reader fails \(ZeroDivisionError\)"),
+    ("swallows", "needs more memory than"),
+    ("refuses", r"^some\.dat: has a hole in it\. Mend it\.$"),
+]
+
+
+@pytest.mark.parametrize(("reader", "words"), READER_ENDINGS)
 def test_whatever_the_reader_does_this_process_says_it(reader, words, tmp_path, monkeypatch):
     (tmp_path / "readers_that_fail.py").write_text(READERS)
     monkeypatch.syspath_prepend(tmp_path)

@@ -11,8 +11,6 @@ kernels have, such as points and hexes, are in `common`. A kernel checks the len
 A method has the object that it is called `of`.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 from tests.core.kernels.arguments import matrices, meshes, methods, surfaces, views

@@ -1,7 +1,5 @@
 """Arguments of kernels of the energy, of its matrices, and of linear programs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Arguments of kernels of meshes: metrics, incidence, rows, structure."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

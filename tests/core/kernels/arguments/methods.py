@@ -1,7 +1,5 @@
 """Arguments of kernels of smoothing methods."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rows of the table of arguments, and the small mesh that they belong to."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Any

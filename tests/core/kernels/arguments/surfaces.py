@@ -1,7 +1,5 @@
 """Arguments of kernels of surfaces: closest points, samples, sliding boundaries, fits."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 from typing import Any

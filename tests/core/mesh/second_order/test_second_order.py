@@ -8,11 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from hexmend import io
+from hexmend import Mesh, io, smooth
 from hexmend.cli.main import main
 from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import (
     MID_NODE_POSITIONS,
     MID_NODE_WEIGHTS,
@@ -24,7 +23,6 @@ from hexmend.mesh.second_order import (
 )
 from hexmend.quality import summarise_second_order
 from hexmend.quality.validity import Validity, certify
-from hexmend.run import smooth
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid
 
@@ -95,12 +93,11 @@ def test_an_element_that_is_moved_by_its_corners_moves_as_their_map_does(moves):
     np.testing.assert_allclose(after[8:], shares @ (UNIT_CUBE + moves), atol=1e-12)
 
 
-def test_info_and_smooth_say_it(tmp_path, capsys):
+def test_info_and_smooth_say_it(tmp_path, capsys, run_command):
     moved = np.zeros((27, 3))
     moved[8, 0] = 0.3
     io.write(tmp_path / "bent.exo", one(27, moved))
-    assert main(["info", str(tmp_path / "bent.exo"), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["second_order"]
+    found = json.loads(run_command("info", tmp_path / "bent.exo", "--json").out)["second_order"]
     assert (found["hexes"], found["invalid"]) == (1, 1)
     main(["info", str(tmp_path / "bent.exo")])
     assert "1 of 1 are invalid" in capsys.readouterr().out

@@ -6,10 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
-from hexmend.errors import MeshError
-from hexmend.mesh.mesh import Mesh
+from hexmend import Mesh, MeshError
+from hexmend.arrays import BLOCK
 from hexmend.mesh.topology import Topology
+from hexmend.mesh.topology.close_pairs import close_pairs
+from hexmend.mesh.topology.components import components, components_of_cells
+from hexmend.mesh.topology.marked_rows import any_of_rows
 from tests.core.grids import grid
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)
@@ -97,3 +101,74 @@ def test_rings_are_hexes_that_share_nodes_again_and_again(topology, rings, data)
 def test_there_is_no_ring_of_a_hex_that_does_not_exist(wrong):
     with pytest.raises(MeshError, match=f"has {wrong} at .*: expected numbers from 0 to 7"):
         grid(2).topology.hexes_around([0, wrong], 1)
+
+
+# Connected components of items and of cells.
+
+
+graphs = st.integers(1, 12).flatmap(
+    lambda n: st.tuples(st.just(n), st.lists(st.tuples(*[st.integers(0, n - 1)] * 2), max_size=20))
+)
+
+
+def of_scipy(n, links):
+    graph = coo_array((np.ones(len(links), np.int8), links.T), (n, n))
+    return connected_components(graph, directed=False)[1]
+
+
+@given(graphs)
+def test_components_are_numbered_in_the_order_of_their_lowest_items(graph):
+    n, links = graph[0], np.array(graph[1], np.int64).reshape(-1, 2)
+    np.testing.assert_array_equal(components(n, links), of_scipy(n, links))
+
+
+def test_a_row_connects_all_its_items_and_nothing_connects_none():
+    assert components(6, np.array([[5, 2, 4]])).tolist() == [0, 1, 2, 3, 2, 2]
+    assert components(3).tolist() == [0, 1, 2]
+    assert components(0, np.empty((0, 8), np.int32)).tolist() == []
+
+
+def test_cells_are_numbered_in_the_order_of_their_first_and_connected_by_others():
+    cells, others = np.array([[7, 8], [0, 1], [8, 9], [2, 3]]), np.array([[1, 4, 2]])
+    assert components_of_cells(10, cells).tolist() == [0, 1, 0, 2]
+    assert components_of_cells(10, cells, others).tolist() == [0, 1, 0, 1]
+
+
+# Pairs of points at one position, against all distances and against a tree.
+
+
+def as_set(pairs):
+    return {tuple(pair) for pair in pairs.tolist()}
+
+
+@pytest.mark.parametrize(("seed", "scale"), [(0, 1e-3), (1, 1.0), (2, 1e6)])
+def test_pairs_are_those_of_a_tree(seed, scale):
+    rng = np.random.default_rng(seed)
+    lattice = np.stack(np.meshgrid(*3 * [np.arange(8.0)], indexing="ij"), axis=-1).reshape(-1, 3)
+    near = lattice[rng.permutation(len(lattice))[:40]] + rng.uniform(-1, 1, (40, 3)) * 1e-6
+    points = scale * np.concatenate([lattice, near, near[:5]])
+    found = close_pairs(points, scale * 1e-6)
+    assert as_set(found) == as_set(cKDTree(points).query_pairs(scale * 1e-6, output_type="ndarray"))
+    assert len(found) > 5
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 100])
+def test_points_that_are_all_at_one_position_are_all_pairs(count):
+    assert len(as_set(close_pairs(np.ones((count, 3)), 0.0))) == count * (count - 1) // 2
+
+
+def test_points_beside_each_other_along_a_plane_are_no_pairs():
+    rng = np.random.default_rng(0)
+    assert close_pairs(rng.uniform(size=(10_000, 3)), 1e-9).shape == (0, 2)
+
+
+# Marks of rows, however wide and many they are.
+
+
+@pytest.mark.parametrize(("width", "count"), [*((width, 50) for width in range(1, 10)), (8, 0), (3, BLOCK + 1)])
+def test_a_row_is_marked_if_one_of_its_numbers_is(width, count):
+    random = np.random.default_rng(width)
+    marks, rows = random.random(200) < 0.2, random.integers(0, 200, (count, width)).astype(np.int32)
+    found = any_of_rows(marks, rows)
+    assert found.dtype == bool
+    np.testing.assert_array_equal(found, marks[rows].any(axis=1))

@@ -5,9 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.gallery import make
-from hexmend.quality import measure
-from hexmend.smoothers import METHODS
+from hexmend import METHODS, gallery, measure
 from tests.core.grids import grid, scrambled
 
 Smart = METHODS["smart-laplacian"]
@@ -37,7 +35,7 @@ def test_where_no_move_does_harm_every_node_goes_to_the_mean_of_its_neighbours()
 
 @pytest.mark.parametrize("guard", ["inversion", "quality"])
 def test_a_sweep_rejects_the_moves_that_harm_one_of_all_hexes_at_the_node(guard):
-    mesh = scrambled(make("five-side", size=250), 0.9, 5)
+    mesh = scrambled(gallery.make("five-side", size=250), 0.9, 5)
     assert np.diff(mesh.topology.node_corners.start)[mesh.free].max() > 8  # more than the lanes of a register
     points, rejected = mesh.points.copy(), 0
     for i in np.flatnonzero(mesh.free):

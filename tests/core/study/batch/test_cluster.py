@@ -10,7 +10,6 @@ from contextlib import ExitStack, contextmanager
 
 import pytest
 
-from hexmend.cli.main import main
 from tests.core.study.batch.conftest import is_running, wait_until
 
 pytestmark = pytest.mark.slow
@@ -119,9 +118,9 @@ def test_a_missing_scheduler_is_reported(laboratory, monkeypatch):
     assert "no scheduler answers at 'tcp//nowhere'" in done.stderr
 
 
-def test_without_dask_the_message_names_what_to_install(laboratory, monkeypatch, capsys):
+def test_without_dask_the_message_names_what_to_install(laboratory, monkeypatch, run_command):
     monkeypatch.setitem(sys.modules, "distributed", None)
     words = ["study", laboratory.recipe(WAITS.replace("trial", "mend")), laboratory.mesh(), "--scheduler", "tcp://a:1"]
     laboratory.recipe('methods = ["mend"]')
-    assert main([*map(str, words), "-o", str(laboratory.out)]) == 2
-    assert "pip install '.[study]'  in the source folder of Hexmend" in capsys.readouterr().err
+    printed = run_command(*words, "-o", laboratory.out, status=2).err
+    assert "pip install '.[study]'  in the source folder of Hexmend" in printed

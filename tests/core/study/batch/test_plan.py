@@ -2,10 +2,7 @@
 
 import pytest
 
-from hexmend import Recipe
-from hexmend.errors import FileError, ParameterError
-from hexmend.mesh.rules import MotionRules
-from hexmend.run.recipe_files import write_recipe
+from hexmend import FileError, MotionRules, ParameterError, Recipe, write_recipe
 from hexmend.study.batch.case import read_case
 from hexmend.study.batch.plan import parse_plan, read_plan
 

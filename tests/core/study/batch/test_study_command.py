@@ -154,13 +154,11 @@ def test_an_interrupted_study_writes_the_finished_tasks(laboratory):
     (["none.toml", "cube.vtk"], 3, "none.toml: there is no such file"),
     (["recipe.toml", "cube.vtk", "-o", "cube.vtk"], 3, "cube.vtk: is a file"),
 ])  # fmt: skip
-def test_wrong_usage_is_one_line_before_the_work(laboratory, monkeypatch, capsys, words, status, said):
+def test_wrong_usage_is_one_line_before_the_work(laboratory, monkeypatch, complaint, words, status, said):
     laboratory.mesh()
     laboratory.recipe('methods = ["laplacian"]')
     monkeypatch.chdir(laboratory.folder)
-    assert main(["study", *words]) == status
-    (line,) = capsys.readouterr().err.splitlines()
-    assert said in line
+    assert said in complaint("study", *words, status=status)
     assert not (laboratory.folder / "recipe").exists()
 
 
@@ -174,7 +172,7 @@ def test_the_folder_is_called_after_the_recipe(laboratory, monkeypatch, capsys):
     assert "1 tasks: 1 done now" in capsys.readouterr().out
 
 
-def test_a_folder_stands_for_its_meshes(laboratory, monkeypatch, capsys):
+def test_a_folder_stands_for_its_meshes(laboratory, monkeypatch, run_command):
     (laboratory.folder / "meshes/fine").mkdir(parents=True)
     for name in ("meshes/a.vtk", "meshes/fine/b.vtk"):
         laboratory.mesh(name, seed=len(name))
@@ -182,7 +180,5 @@ def test_a_folder_stands_for_its_meshes(laboratory, monkeypatch, capsys):
     (laboratory.folder / "empty").mkdir()
     laboratory.recipe('methods = ["laplacian"]')
     monkeypatch.chdir(laboratory.folder)
-    assert main(["study", "recipe.toml", "meshes"]) == 0
-    assert "2 tasks: 2 done now" in capsys.readouterr().out
-    assert main(["study", "recipe.toml", "empty"]) == 3
-    assert "no mesh is in this folder" in capsys.readouterr().err
+    assert "2 tasks: 2 done now" in run_command("study", "recipe.toml", "meshes").out
+    assert "no mesh is in this folder" in run_command("study", "recipe.toml", "empty", status=3).err

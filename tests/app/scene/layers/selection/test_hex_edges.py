@@ -2,14 +2,21 @@
 
 import numpy as np
 import pytest
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from hexmend.mesh.hexahedron import EDGES
+from hexmend.smoothers import METHODS
+from hexmend_app.picture import LineStyle, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.page import LineStyle
-from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.selection.highlight import dashed
+from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.state.node_step import explain
+from hexmend_app.theme.palette import DESCENT, SEARCH
 from tests.app.scene.showing import show
-from tests.core.grids import grid
+from tests.app.state.node_step.test_node_step import MIDDLE, sheared
+from tests.core.grids import grid, scrambled
 
 MESH = grid(3)
 CORNER = int((MESH.points[MESH.hexes].mean(axis=1) == 2.5).all(axis=1).nonzero()[0][0])
@@ -82,3 +89,41 @@ def test_dashes_are_parts_of_their_edges():
         assert np.linalg.norm(np.cross(own.reshape(-1, 3) - a, b - a), axis=1).max() < 1e-6
         share = drawn[first - count - 1 : first].sum() / np.linalg.norm(b - a)
         assert share == pytest.approx(0.55, abs=1e-5)
+
+
+# Arrows of a node step: all of them downhill, none for rounding.
+
+
+def arrows(mesh, node, name):
+    """Return the drawn directions of the step's arrows by role; None for arrows that are not drawn."""
+    step = explain(mesh, METHODS[name](), node)
+    with Stage((60, 60)) as stage:
+        marks = NodeStepMarks(Pane(stage.window))
+        marks.show(step, mesh.hexes[step.hexes], mesh.points)
+        directions = {}
+        for role, (_, solid) in marks.arrows.items():
+            points = vtk_to_numpy(solid.GetMapper().GetInput().GetPoints().GetData()) if solid.GetVisibility() else None
+            directions[role] = None if points is None else _tip(points, step.before) - step.before
+    return step, directions
+
+
+def _tip(points, start):
+    return points[np.linalg.norm(points - start, axis=1).argmax()]
+
+
+@pytest.mark.parametrize("name", ["local-sd", "local-nr", "global-sd", "laplacian"])
+def test_the_arrow_of_the_gradient_points_downhill(name):
+    mesh = scrambled(grid(3), 0.2, 5)
+    step, drawn = arrows(mesh, int(np.flatnonzero(mesh.free)[3]), name)
+    downhill = drawn[DESCENT]
+    cosine = downhill @ -step.gradient / np.linalg.norm(downhill) / np.linalg.norm(step.gradient)
+    assert cosine > 0.99
+    assert drawn[SEARCH] is not None
+
+
+@pytest.mark.parametrize("name", ["local-sd", "local-nr", "laplacian"])
+def test_a_node_at_its_minimum_has_no_arrows(name):
+    step, drawn = arrows(sheared(), MIDDLE, name)
+    assert np.linalg.norm(step.gradient) > 0  # rounding
+    assert drawn[DESCENT] is None
+    assert drawn[SEARCH] is None

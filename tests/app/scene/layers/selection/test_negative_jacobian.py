@@ -8,6 +8,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.visibility import Show
 from tests.app.invalid_hexes import BENT, INSIDE, INVERTED, THREE, VALID
 from tests.app.scene.showing import show
+from tests.core.grids import placed
 
 
 @pytest.fixture
@@ -51,9 +52,7 @@ def test_the_region_follows_the_nodes_and_goes_when_the_hex_is_valid(selection):
     selection.select(INSIDE, False, None)
     selection.move(THREE.with_points(2 * THREE.points))
     assert np.asarray(selection.negative.region.points)[:, 2].max() == pytest.approx(4 / 3, abs=4e-3)
-    mended = THREE.points.copy()
-    mended[THREE.hexes[INSIDE]] = THREE.points[THREE.hexes[VALID]] + [6.0, 0.0, 0.0]
-    selection.move(THREE.with_points(mended))
+    selection.move(placed(THREE, THREE.hexes[INSIDE], THREE.points[THREE.hexes[VALID]] + [6.0, 0.0, 0.0]))
     assert not selection.negative.shown
 
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
+from hexmend import Cells, Mesh
 from tests.core.grids import grid
 
 #: Twice the coordinates of a HEX27's nodes in the unit cube, from the manual's figure, from node 1.

@@ -1,16 +1,17 @@
 """Reading ExodusII files of other programs."""
 
 import shutil
+import struct
 
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, SIDES, letters, written
+from tests.core.io.kept import read_back
 
 
 @pytest.mark.parametrize("width", [8, 20, 27])
@@ -20,8 +21,7 @@ def test_nodes_of_every_order_have_vtks_order(width, tmp_path):
     np.testing.assert_array_equal(mesh.points[mesh.hexes[0]], UNIT_CUBE)
     if width > 8:
         np.testing.assert_array_equal(mesh.points[mesh.mid_nodes[0, : width - 8]], MID_NODE_POSITIONS[: width - 8])
-    io.write(tmp_path / "again.exo", mesh)
-    again = io.read(tmp_path / "again.exo")
+    again = read_back(tmp_path / "again.exo", mesh)
     np.testing.assert_array_equal(again.hexes, mesh.hexes)
     np.testing.assert_array_equal(again.mid_nodes, mesh.mid_nodes)
 
@@ -48,8 +48,7 @@ def test_sides_are_faces(tmp_path):
     mesh = io.read(written(tmp_path / "s.exo", UNIT_CUBE, [("HEX", "", [range(1, 9)])], more))
     for (hex_, face), nodes in zip(mesh.side_sets["skin"], SIDES, strict=True):
         assert set(mesh.hexes[hex_][FACES[face]] + 1) == set(nodes)
-    io.write(tmp_path / "t.exo", mesh)
-    np.testing.assert_array_equal(io.read(tmp_path / "t.exo").side_sets["skin"], mesh.side_sets["skin"])
+    np.testing.assert_array_equal(read_back(tmp_path / "t.exo", mesh).side_sets["skin"], mesh.side_sets["skin"])
 
 
 def test_blocks_sets_ids_attributes_and_the_last_step_are_read(tmp_path):
@@ -154,8 +153,7 @@ def test_records_of_the_programs_that_made_a_file_are_kept(tmp_path):
     assert mesh.notes == ()
     assert io.unsupported_data("a.exo", mesh) == []
     assert io.unsupported_data("a.med", mesh) == ["field data (exodus:information, exodus:qa)"]
-    io.write(tmp_path / "again.exo", mesh)
-    back = io.read(tmp_path / "again.exo")
+    back = read_back(tmp_path / "again.exo", mesh)
     assert back.field_data["exodus:qa"] == qa
     assert back.field_data["exodus:information"] == ["begin sierra", "", "end"]
 
@@ -180,3 +178,42 @@ def test_a_note_says_that_the_last_of_several_time_steps_is_read(steps, tmp_path
     mesh = io.read(written(tmp_path / "t.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
     assert mesh.node_data["T"][0] == 8 * (steps - 1)
     assert mesh.notes == (("Not read: all 3 time steps but the last.",) if steps == 3 else ())
+
+
+# Truncated or inconsistent ExodusII files, and other NetCDF files, give one clear error each.
+
+
+def test_counts_larger_than_the_file_are_refused_before_anything_is_allocated(tmp_path):
+    io.write(tmp_path / "good.exo", grid(2))
+    data = (tmp_path / "good.exo").read_bytes()
+    place = data.index(b"num_nodes") + 12
+    (tmp_path / "bad.exo").write_bytes(data[:place] + struct.pack(">i", 2**31 - 1) + data[place + 4 :])
+    with pytest.raises(FileError, match="the file ends at byte"):
+        io.read(tmp_path / "bad.exo")
+
+
+@pytest.mark.parametrize("huge", ["num_nodes", "num_el_blk", "num_el_in_blk1"])
+def test_huge_dimensions_on_hdf5_without_values_are_refused(huge, tmp_path):
+    """HDF5 allocates no space for an array without values, whatever its size."""
+    netCDF4 = pytest.importorskip("netCDF4")
+    with netCDF4.Dataset(tmp_path / "a.exo", "w") as file:
+        lengths = {"num_nodes": 8, "num_nod_per_el1": 8, "num_dim": 3}
+        lengths |= dict.fromkeys(("num_elem", "num_el_blk", "num_el_in_blk1"), 1) | {huge: 2**40}
+        for one, length in lengths.items():
+            file.createDimension(one, length)
+        for axis in "xyz":
+            file.createVariable(f"coord{axis}", "f8", ("num_nodes",))
+        file.createVariable("connect1", "i4", ("num_el_in_blk1", "num_nod_per_el1")).elem_type = "HEX8"
+    with pytest.raises(FileError, match=r"a\.exo: .*(more than a file of its size holds|of \d+ variables)"):
+        io.read(tmp_path / "a.exo")
+
+
+def test_netcdf_that_is_no_exodus_is_not_called_damaged(tmp_path):
+    from scipy.io import netcdf_file
+
+    with netcdf_file(tmp_path / "weather.exo", "w") as file:
+        file.createDimension("lat", 3)
+        file.createVariable("t", "d", ("lat",))[:] = [1, 2, 3]
+    with pytest.raises(FileError, match="no dimension num_nodes") as caught:
+        io.read(tmp_path / "weather.exo")
+    assert "damaged" not in str(caught.value)

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.mesh.cells import Cells
+from hexmend import Cells, Mesh, io
+from hexmend.io import Original, write_as_given
+from hexmend.io.formats.exodus.netcdf3 import ClassicReader
 from hexmend.mesh.hexahedron import UNIT_CUBE
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
-from tests.core.grids import grid
+from tests.core.grids import displaced, grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, on_hdf5, rich, written
-from tests.core.io.kept import assert_same
+from tests.core.io.kept import assert_same, read_back
 
 
 def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
@@ -21,8 +21,7 @@ def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
     mesh = Mesh(
         points, bare.hexes, mid_nodes=mids, hex_data={"p": np.arange(3.0)}, side_sets={"in": np.array([[0, 0], [2, 1]])}
     )
-    io.write(tmp_path / "m.exo", mesh)
-    back = io.read(tmp_path / "m.exo")
+    back = read_back(tmp_path / "m.exo", mesh)
     own = {tuple(row): k for k, row in enumerate(back.hexes.tolist())}
     place = [own[tuple(row)] for row in mesh.hexes.tolist()]
     np.testing.assert_array_equal(back.mid_nodes[place], mesh.mid_nodes)
@@ -104,8 +103,7 @@ def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_r
         "names of point data as they are (v, w)",
         "names of cell data as they are (s)",
     ]
-    io.write(tmp_path / "a.exo", mesh)
-    back = io.read(tmp_path / "a.exo")
+    back = read_back(tmp_path / "a.exo", mesh)
     assert set(back.node_data) == {"v_2", "v_x", "w_2", "w_3", "free"}
     assert set(back.hex_data) == {"s_2", "s_z"}
     for title, values in {"v_2": vector, "v_x": scalar, "w_2": pair, "w_3": scalar, "free": vector}.items():
@@ -129,3 +127,52 @@ def test_cells_without_ids_follow_the_highest_one(tmp_path):
     netCDF4 = pytest.importorskip("netCDF4")
     with netCDF4.Dataset(tmp_path / "a.exo") as file:
         assert file["elem_num_map"][:].tolist() == list(range(10, 20))
+
+
+# Coordinates replaced in ExodusII files of all containers, types and layouts.
+
+
+h5py = pytest.importorskip("h5py")
+
+
+def moved(mesh):
+    return displaced(mesh, np.s_[::3], 0.01 * np.random.default_rng(3).normal(size=mesh.points[::3].shape))
+
+
+def replaced(source, target):
+    given = io.read(source)
+    mesh = moved(given)
+    written = write_as_given(target, mesh, Original(source, given))
+    assert written.replaced, written.notes
+    again = io.read(target)
+    assert_same(again.with_points(mesh.points), mesh)
+    return mesh, again, written
+
+
+def test_a_classic_file_keeps_each_byte_that_is_no_coordinate(tmp_path):
+    io.write(tmp_path / "a.exo", rich())
+    mesh, again, _ = replaced(tmp_path / "a.exo", tmp_path / "b.exo")
+    np.testing.assert_array_equal(again.points, mesh.points)
+    given, data = (bytearray((tmp_path / name).read_bytes()) for name in ("a.exo", "b.exo"))
+    store = ClassicReader(tmp_path / "a.exo")
+    for name in ("coordx", "coordy", "coordz"):
+        variable = store.variable(name)
+        for one in (given, data):
+            one[variable.begin : variable.begin + variable.data_size] = bytes(variable.data_size)
+    assert given == data
+
+
+@pytest.mark.parametrize("kind", ["f8", "f4"])
+def test_compressed_coordinates_are_written_by_the_library(kind, tmp_path):
+    io.write(tmp_path / "a.exo", rich())
+    on_hdf5(tmp_path / "a.exo", tmp_path / "b.exo", zlib=True, kind=kind)
+    mesh, again, written = replaced(tmp_path / "b.exo", tmp_path / "c.exo")
+    np.testing.assert_allclose(again.points, mesh.points, rtol=0, atol=0 if kind == "f8" else 1e-6)
+    assert any("32-bit" in note for note in written.notes) == (kind == "f4")
+    with h5py.File(tmp_path / "b.exo") as one, h5py.File(tmp_path / "c.exo") as other:
+        assert list(one) == list(other)
+        assert other["coordx"].dtype == kind
+        for name in one:
+            if not name.startswith("coord"):
+                np.testing.assert_array_equal(one[name][()], other[name][()])
+                assert dict(one[name].attrs).keys() == dict(other[name].attrs).keys()

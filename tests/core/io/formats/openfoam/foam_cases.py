@@ -1,7 +1,5 @@
 """Cases of OpenFOAM for tests, written by hand: as text and binary, with cells of all kinds."""
 
-from __future__ import annotations
-
 import gzip
 from collections.abc import Mapping, Sequence
 from pathlib import Path

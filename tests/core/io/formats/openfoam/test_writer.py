@@ -6,15 +6,13 @@ import os
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import Cells, FileError, Mesh, io
 from hexmend.io import Original
 from hexmend.io.formats.openfoam.case import find_case
 from hexmend.io.formats.openfoam.reader import read_poly_mesh
-from hexmend.mesh.cells import Cells
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 from tests.core.io.formats.openfoam.foam_cases import write_cube
+from tests.core.io.kept import read_back
 
 ENCODINGS = [None, (32, 64), (64, 32)]
 
@@ -84,8 +82,7 @@ def test_a_later_time_is_written_as_the_mesh_of_the_copy(tmp_path):
     (tmp_path / "cube/0.5/polyMesh").mkdir(parents=True)
     (tmp_path / "cube/0.5/polyMesh/points").write_bytes((mesh / "points").read_bytes().replace(b"1.0", b"1.5"))
     later, before = io.read(tmp_path / "cube/0.5"), tree(mesh)
-    io.write(tmp_path / "copy", later, like=tmp_path / "cube/0.5")
-    assert io.read(tmp_path / "copy").points.max() == 1.5
+    assert read_back(tmp_path / "copy", later, like=tmp_path / "cube/0.5").points.max() == 1.5
     io.write(tmp_path / "cube/0.5", moved(later), like=tmp_path / "cube/0.5")
     np.testing.assert_array_equal(io.read(tmp_path / "cube/0.5").points, moved(later).points)
     assert tree(mesh) == before
@@ -114,8 +111,7 @@ def test_a_case_with_another_mesh_is_left_alone(tmp_path):
 
 def test_a_mesh_of_another_format_gives_its_points_to_a_case_with_the_same_mesh(tmp_path):
     io.write(tmp_path / "grid/grid.foam", grid(2))
-    io.write(tmp_path / "grid.vtk", scrambled(io.read(tmp_path / "grid"), 0.2))
-    before, mesh = tree(tmp_path / "grid"), io.read(tmp_path / "grid.vtk")
+    before, mesh = tree(tmp_path / "grid"), read_back(tmp_path / "grid.vtk", scrambled(io.read(tmp_path / "grid"), 0.2))
     io.write(tmp_path / "grid", mesh)
     after = tree(tmp_path / "grid")
     assert [name for name in before if before[name] != after[name]] == ["constant/polyMesh/points"]

@@ -5,8 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid, scrambled
 from tests.core.io.vtk_writers import by_vtk, grid_by_vtk
 

@@ -7,15 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import FileError, Mesh, io
 from hexmend.cli.main import main
-from hexmend.errors import FileError
 from hexmend.io.files import remove
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
-from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
-from tests.core.io.kept import assert_same, with_everything
+from tests.core.io.kept import assert_same, read_back, with_everything
 
 
 def halves(folder, numbered=False, ghosts=False):
@@ -53,18 +51,18 @@ def test_pieces_are_merged(numbered, ghosts, tmp_path):
     assert any("2 ghost cells" in note for note in back.notes) is ghosts
 
 
-@pytest.mark.parametrize(
-    ("pieces", "words"),
-    [
-        ("", "lists no pieces"),
-        ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
-        ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "lists a piece twice"),
-        ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
-        ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
-        ('<Piece Source="."/>', "is a folder"),
-        ('<Piece Source="whole.pvtu"/>', r"its piece whole\.pvtu: is a VTKFile of the type 'PUnstructuredGrid'"),
-    ],
-)
+WRONG_PIECES = [
+    ("", "lists no pieces"),
+    ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
+    ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "lists a piece twice"),
+    ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
+    ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
+    ('<Piece Source="."/>', "is a folder"),
+    ('<Piece Source="whole.pvtu"/>', r"its piece whole\.pvtu: is a VTKFile of the type 'PUnstructuredGrid'"),
+]
+
+
+@pytest.mark.parametrize(("pieces", "words"), WRONG_PIECES)
 def test_what_is_wrong_is_named(pieces, words, tmp_path):
     halves(tmp_path)
     with pytest.raises(FileError, match=words):
@@ -132,8 +130,7 @@ def write_in_pieces(path, mesh, count, seed=0):
 @pytest.mark.parametrize("encoding", ["binary", "ascii"])
 def test_a_mesh_is_written_in_one_piece(tmp_path, encoding):
     mesh = rich()
-    io.write(tmp_path / "a.pvtu", mesh, encoding=encoding)
-    back = io.read(tmp_path / "a.pvtu")
+    back = read_back(tmp_path / "a.pvtu", mesh, encoding=encoding)
     check_same(back, mesh)
     assert back.notes == ()
     assert [file.name for file in (tmp_path / "a").iterdir()] == ["a_0.vtu"]
@@ -170,8 +167,7 @@ def test_a_new_file_leaves_the_pieces_of_the_old_one_until_it_is_whole(tmp_path,
     assert sorted(tmp_path.rglob("*")) == before
     assert io.read(path).n_hexes == old.n_hexes
     for mesh in (new, old):
-        io.write(path, mesh)
-        assert io.read(path).n_hexes == mesh.n_hexes
+        assert read_back(path, mesh).n_hexes == mesh.n_hexes
         assert len(list((tmp_path / "a").iterdir())) == 1
 
 
@@ -195,8 +191,7 @@ def test_meshes_of_others_with_the_names_of_pieces_stay(tmp_path):
     for k, path in enumerate(series):
         io.write(path, grid(k + 1))
     for n in (4, 5):
-        io.write(tmp_path / "a.pvtu", grid(n))
-        assert io.read(tmp_path / "a.pvtu").n_hexes == n**3
+        assert read_back(tmp_path / "a.pvtu", grid(n)).n_hexes == n**3
     remove(tmp_path / "a.pvtu")
     assert sorted((tmp_path / "a").iterdir()) == series
     assert [io.read(path).n_hexes for path in series] == [1, 8, 27]
@@ -244,14 +239,14 @@ def test_a_link_that_leads_back_to_itself_in_the_folder_does_no_harm(tmp_path):
     assert io.read(whole).n_hexes == 8
 
 
-def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_that_of_its_piece(tmp_path, capsys):
+def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_that_of_its_piece(tmp_path, run_command):
     io.write(tmp_path / "a.pvtu", grid(2))
     whole, piece = str(tmp_path / "a.pvtu"), str(tmp_path / "a" / "a_0.vtu")
     before = [Path(path).read_bytes() for path in (whole, piece)]
-    assert main(["smooth", piece, "-o", whole]) == 3
-    assert "a.pvtu: includes a_0.vtu, the given mesh. Choose another name." in capsys.readouterr().err
-    assert main(["smooth", whole, "-o", piece]) == 3
-    assert "a_0.vtu: is included by a.pvtu. Choose another name." in capsys.readouterr().err
+    printed = run_command("smooth", piece, "-o", whole, status=3).err
+    assert "a.pvtu: includes a_0.vtu, the given mesh. Choose another name." in printed
+    printed = run_command("smooth", whole, "-o", piece, status=3).err
+    assert "a_0.vtu: is included by a.pvtu. Choose another name." in printed
     assert [Path(path).read_bytes() for path in (whole, piece)] == before
     assert main(["smooth", whole, "-o", whole, "--max-iterations", "1"]) == 0
     assert io.read(whole).n_hexes == 8
@@ -261,8 +256,7 @@ def test_a_piece_is_no_place_for_the_result_of_its_file_and_the_file_none_for_th
 def test_names_of_files_that_xml_cannot_hold(tmp_path, name):
     if os.name == "nt":
         pytest.skip("Windows has no files of these names")
-    io.write(tmp_path / name, grid(2))
-    assert io.read(tmp_path / name).n_hexes == 8
+    assert read_back(tmp_path / name, grid(2)).n_hexes == 8
 
 
 def test_other_numbers_of_nodes_do_not_count_where_those_of_the_file_are_there(tmp_path):

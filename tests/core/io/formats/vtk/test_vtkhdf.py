@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
 from tests.core.grids import grid, scrambled
 
 h5py = pytest.importorskip("h5py")
@@ -96,22 +95,19 @@ def replaced(**arrays):
     return change
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (
-            lambda root: root.attrs.__setitem__("Type", "ImageData"),
-            "is of the type 'ImageData': expected UnstructuredGrid",
-        ),
-        (replaced(NumberOfPoints=[8]), "does not have the counts of its 1 part"),
-        (replaced(NumberOfPoints=[8, 9]), "its Points ends after"),
-        (replaced(Offsets=[0, 7, 0, 8]), "its Offsets of part 0 do not rise"),
-        (replaced(Types=[12, 268]), "cell 1 is of type 268"),
-        (replaced(Connectivity=np.arange(16) / 1), "its Connectivity are float64: expected whole numbers"),
-        (replaced(Connectivity=np.full(16, 2**32 + 7)), "its parts|uses the nodes"),
-        (lambda root: root.__delitem__("Types"), "has no array 'Types'"),
-    ],
-)
+WRONG_CHANGES = [
+    (lambda root: root.attrs.__setitem__("Type", "ImageData"), "is of the type 'ImageData': expected UnstructuredGrid"),
+    (replaced(NumberOfPoints=[8]), "does not have the counts of its 1 part"),
+    (replaced(NumberOfPoints=[8, 9]), "its Points ends after"),
+    (replaced(Offsets=[0, 7, 0, 8]), "its Offsets of part 0 do not rise"),
+    (replaced(Types=[12, 268]), "cell 1 is of type 268"),
+    (replaced(Connectivity=np.arange(16) / 1), "its Connectivity are float64: expected whole numbers"),
+    (replaced(Connectivity=np.full(16, 2**32 + 7)), "its parts|uses the nodes"),
+    (lambda root: root.__delitem__("Types"), "has no array 'Types'"),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), WRONG_CHANGES)
 def test_what_is_wrong_is_named(change, words, tmp_path):
     def both(root):
         del root["CellData"]

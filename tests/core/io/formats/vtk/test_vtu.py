@@ -8,10 +8,11 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from hexmend import io
-from hexmend.errors import FileError
+from hexmend import FileError, io
+from hexmend.io.formats.vtk import vtu_writer
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
+from tests.core.io.kept import assert_refused, read_content
 from tests.core.io.vtk_writers import by_vtk, grid_by_vtk
 
 CUBE = " ".join(f"{x:g}" for x in UNIT_CUBE.ravel())
@@ -39,8 +40,7 @@ def test_text_is_read_as_xml_allows_it_to_be(tmp_path):
         "key": plain.replace("0 1 2 3", "<InformationKey n='>'><Value>9</Value></InformationKey> 0 1 2 3<a/>").encode(),
     }
     for name, data in forms.items():
-        (tmp_path / f"{name}.vtu").write_bytes(data)
-        back = io.read(tmp_path / f"{name}.vtu")
+        back = read_content(tmp_path / f"{name}.vtu", data)
         np.testing.assert_array_equal(back.points, UNIT_CUBE)
         np.testing.assert_array_equal(back.node_data["n<ä"], np.arange(8))
 
@@ -54,8 +54,7 @@ def test_several_pieces_are_put_together(tmp_path):
         "7</DataArray></CellData>", '9</DataArray><DataArray type="Int8" Name="b">1</DataArray></CellData>'
     )
     text = text_of().replace(re.search("<Piece.*</Piece>", text_of())[0], one + empty + other)
-    (tmp_path / "a.vtu").write_text(text)
-    back = io.read(tmp_path / "a.vtu")
+    back = read_content(tmp_path / "a.vtu", text)
     np.testing.assert_array_equal(back.hexes, [np.arange(8), np.arange(8, 16)])
     np.testing.assert_array_equal(back.hex_data["a"], [7, 9])
     assert "b" not in back.hex_data
@@ -69,8 +68,7 @@ def test_strings_of_nodes_and_bits_and_whole_numbers_of_other_types(tmp_path):
         '<DataArray type="Bit" Name="bits">0 1 0 1 0 1 0 1</DataArray></PointData>'
     )
     more = '<FieldData><Array type="String" Name="title">195 -92 0 0 98 0</Array></FieldData>'
-    (tmp_path / "a.vtu").write_text(text_of(data=data, kind="Float32", more=more))
-    back = io.read(tmp_path / "a.vtu")
+    back = read_content(tmp_path / "a.vtu", text_of(data=data, kind="Float32", more=more))
     assert any("strings" in note and "words" in note for note in back.notes)
     np.testing.assert_array_equal(back.node_data["bits"], [0, 1] * 4)
     assert back.field_data["title"] == ["ä", "", "b"]
@@ -83,52 +81,48 @@ def test_base64_whose_head_is_encoded_by_itself_is_read(tmp_path):
 
     text = text_of(hexes=encoded(np.arange(8)), ends=encoded(np.int64(8)), types=encoded(np.uint8(12)))
     text = text.replace(CUBE, encoded(UNIT_CUBE)).replace("<DataArray", '<DataArray format="binary"')
-    (tmp_path / "a.vtu").write_text(text)
-    np.testing.assert_array_equal(io.read(tmp_path / "a.vtu").points, UNIT_CUBE)
+    np.testing.assert_array_equal(read_content(tmp_path / "a.vtu", text).points, UNIT_CUBE)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (text_of(hexes="0 1 2 3 4 5 6 4294967303"), "expected numbers from 0 to 7"),
-        (text_of(hexes="0 1 2 3 4 5 6 4294967303", kind="Int32"), "holds 4294967303, which is outside of its type Int32"),
-        (text_of(hexes="0 1 2 3 4 5 6 36893488147419103239"), "outside of its type Int64"),
-        (text_of(hexes="0 1 2 3 4 5 6 7.9"), "words that are not numbers of its type"),
-        (text_of(hexes="0 1 2 3 4 5 6 7.9", kind="Float64"), "holds 7.9: expected whole numbers"),
-        (text_of(types="268"), "holds 268, which is outside of its type UInt8"),
-        (text_of(types="268").replace("UInt8", "Int32"), "cell 0 is of type 268: expected one of VTK's types"),
-        (text_of(hexes="0 1 2 3 4 5 6 7 0"), "holds 9 numbers: expected 8"),
-        (text_of(ends="7"), "holds 8 numbers: expected 7"),
-        (text_of(ends="7", hexes="0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
-        (text_of(cells=2, ends="8 0", types="12 12"), "its offsets fall at cell 1"),
-        (text_of(ends="-8"), "its offsets fall at cell 0"),
-        (text_of(points="9"), "holds 24 numbers: expected 27"),
-        (text_of(points="1e3"), "NumberOfPoints of Piece is '1e3': expected a natural number"),
-        (text_of(points=10**15), "are declared to have"),
-        (text_of(cells=10**15), "are declared to have"),
-        (text_of(ends=str(10**15)), "are declared to have"),
-        (text_of(kind="Int65"), "has the type 'Int65': expected Int8"),
-        (text_of(kind='Int64" format="hex'), "has the format 'hex'"),
-        (text_of(kind='Int64" format="appended'), "has no AppendedData"),
-        (text_of(kind='Int64" format="binary'), "'connectivity' has 3820445139 bytes: expected 64"),
-        (text_of(kind='Int64" format="binary', hexes="QAAAAA=="), "continues past the end of the data"),
-        (text_of(kind='Int64" format="binary', hexes="Q!!!!!!!"), "is not valid base64"),
-        (text_of().replace('Name="types"', 'Name="type"'), "its Cells hold no array 'types'"),
-        (text_of().replace('"3"', '"2"'), "its Points have 2 coordinates each: expected 3"),
-        (text_of().replace("UnstructuredGrid", "ImageData"), "is a VTKFile of the type 'ImageData': expected UnstructuredGrid"),
-        (text_of().replace("Piece", "Part"), "holds no Piece"),
-        (text_of()[:-20], "its XML is broken at line 1, column"),
-        ('<!DOCTYPE a [<!ENTITY b "bbbbbbbb">]>' + text_of(), "declares a document type"),
-        ("\0" * 5000, "does not begin with <VTKFile"),
-        ("<VTKFile" + " " * 5000, "its XML is broken"),
-        ('<?xml version="1.0" encoding="no-such"?>' + text_of(), "its XML is broken"),
-    ],
-)  # fmt: skip
+WRONG_TEXTS = [
+    (text_of(hexes="0 1 2 3 4 5 6 4294967303"), "expected numbers from 0 to 7"),
+    (text_of(hexes="0 1 2 3 4 5 6 4294967303", kind="Int32"), "holds 4294967303, which is outside of its type Int32"),
+    (text_of(hexes="0 1 2 3 4 5 6 36893488147419103239"), "outside of its type Int64"),
+    (text_of(hexes="0 1 2 3 4 5 6 7.9"), "words that are not numbers of its type"),
+    (text_of(hexes="0 1 2 3 4 5 6 7.9", kind="Float64"), "holds 7.9: expected whole numbers"),
+    (text_of(types="268"), "holds 268, which is outside of its type UInt8"),
+    (text_of(types="268").replace("UInt8", "Int32"), "cell 0 is of type 268: expected one of VTK's types"),
+    (text_of(hexes="0 1 2 3 4 5 6 7 0"), "holds 9 numbers: expected 8"),
+    (text_of(ends="7"), "holds 8 numbers: expected 7"),
+    (text_of(ends="7", hexes="0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
+    (text_of(cells=2, ends="8 0", types="12 12"), "its offsets fall at cell 1"),
+    (text_of(ends="-8"), "its offsets fall at cell 0"),
+    (text_of(points="9"), "holds 24 numbers: expected 27"),
+    (text_of(points="1e3"), "NumberOfPoints of Piece is '1e3': expected a natural number"),
+    (text_of(points=10**15), "are declared to have"),
+    (text_of(cells=10**15), "are declared to have"),
+    (text_of(ends=str(10**15)), "are declared to have"),
+    (text_of(kind="Int65"), "has the type 'Int65': expected Int8"),
+    (text_of(kind='Int64" format="hex'), "has the format 'hex'"),
+    (text_of(kind='Int64" format="appended'), "has no AppendedData"),
+    (text_of(kind='Int64" format="binary'), "'connectivity' has 3820445139 bytes: expected 64"),
+    (text_of(kind='Int64" format="binary', hexes="QAAAAA=="), "continues past the end of the data"),
+    (text_of(kind='Int64" format="binary', hexes="Q!!!!!!!"), "is not valid base64"),
+    (text_of().replace('Name="types"', 'Name="type"'), "its Cells hold no array 'types'"),
+    (text_of().replace('"3"', '"2"'), "its Points have 2 coordinates each: expected 3"),
+    (text_of().replace("UnstructuredGrid", "ImageData"), "is a VTKFile of the type 'ImageData': expected UnstructuredGrid"),
+    (text_of().replace("Piece", "Part"), "holds no Piece"),
+    (text_of()[:-20], "its XML is broken at line 1, column"),
+    ('<!DOCTYPE a [<!ENTITY b "bbbbbbbb">]>' + text_of(), "declares a document type"),
+    ("\0" * 5000, "does not begin with <VTKFile"),
+    ("<VTKFile" + " " * 5000, "its XML is broken"),
+    ('<?xml version="1.0" encoding="no-such"?>' + text_of(), "its XML is broken"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "words"), WRONG_TEXTS)
 def test_what_is_wrong_is_named(text, words, tmp_path):
-    (tmp_path / "a.vtu").write_text(text)
-    with pytest.raises(FileError) as error:
-        io.read(tmp_path / "a.vtu")
-    assert words in str(error.value)
+    assert_refused(tmp_path / "a.vtu", words, text)
 
 
 def packed(size, *, blocks=1):
@@ -186,8 +180,7 @@ def test_appended_data_are_never_taken_for_xml_and_may_not_be_shared_by_too_many
     content = (tmp_path / "a.vtu").read_bytes()
     one = re.search(rb'<DataArray type="Float64" Name="marks"[^>]*/>', content)[0]
     many = b"".join(one.replace(b'"marks"', b'"m%d"' % k) for k in range(2000))
-    (tmp_path / "many.vtu").write_bytes(content.replace(one, many))
-    assert len(io.read(tmp_path / "many.vtu").node_data) == 2000
+    assert len(read_content(tmp_path / "many.vtu", content.replace(one, many)).node_data) == 2000
     for bad, words in (
         (content[:-3000], "continues past"),
         (content.replace(b"   _", b"   x"), "do not begin with '_'"),
@@ -210,3 +203,21 @@ def test_real_files_are_as_vtk_has_them(name, hexes, real_mesh):
     chosen = np.asarray(other.celltypes) == 12
     for key, values in other.cell_data.items():
         np.testing.assert_array_equal(mesh.hex_data[key], values[chosen])
+
+
+# Writing VTU: what is written is read again by us and by VTK.
+
+
+def test_vtk_reads_arrays_of_many_blocks_and_of_none(tmp_path, monkeypatch):
+    pyvista = pytest.importorskip("pyvista")
+    monkeypatch.setattr(vtu_writer, "_BLOCK", 1000)
+    mesh = scrambled(grid(6), 0.3)
+    fields = {"none": np.zeros(0), "no rows": np.zeros((0, 3)), "one": np.ones(1)}
+    io.write(tmp_path / "a.vtu", mesh.replace(field_data=fields))
+    other = pyvista.read(tmp_path / "a.vtu")
+    np.testing.assert_array_equal(other.points, mesh.points)
+    np.testing.assert_array_equal(other.cells_dict[12], mesh.hexes)
+    np.testing.assert_array_equal(other.field_data["one"], 1)
+    for encoding in ("binary", "ascii"):
+        io.write(tmp_path / "b.vtu", mesh.replace(field_data=fields), encoding=encoding)
+        assert not np.size(io.read(tmp_path / "b.vtu").field_data["none"])
