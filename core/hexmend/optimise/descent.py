@@ -36,7 +36,7 @@ class DescentConfig:
         Bound of a hex's energy after a step: a factor of the energy before, and a summand.
     """
 
-    trials: int = TruncatedNewtonConfig.max_damping_increases
+    trials: int = TruncatedNewtonConfig.max_damping_increases // 2
     growth_factor: float = 2.0
     growth_summand: float = 1.0
 

@@ -91,23 +91,19 @@ class TruncatedNewtonConfig:
     max_damping_increases : int
         Most increases of the damping in a step.
     damping_factor : float
-        Factor of an increase, and divisor after a step for which the damping was enough. The smallest damping that is
-        not 0, as a share of the diagonal, is the tightest tolerance: a solution does not feel less.
+        Factor of an increase; its square is the divisor after a step for which the damping was enough. The smallest
+        damping that is not 0, as a share of the diagonal, is the tightest tolerance: a solution does not feel less.
     deflated : bool
         Deflate solutions by translations of aggregates of nodes: best where many iterations are needed. More than the
         smallest damping shortens long waves, so that a few iterations are enough: such solutions are not deflated.
-    definite : bool
-        Damp until the matrix is positive definite, as solutions for other right-hand sides need it to be. Otherwise
-        conjugate gradients end at a direction of negative curvature, and their iterate is taken (Steihaug 1983).
     """
 
     iterations: int = 200
     loosest: float = 0.1
     tightest: float = 1e-3
-    max_damping_increases: int = 6
-    damping_factor: float = 4.0
+    max_damping_increases: int = 12
+    damping_factor: float = 2.0
     deflated: bool = False
-    definite: bool = True
 
 
 class TruncatedNewton:
@@ -142,7 +138,7 @@ class TruncatedNewton:
         solved, damping, count = self._solve_definite(matrix, gradient, tolerance, self._damping)
         matrix.lend_memory()  # to the next gradient
         self._used_damping = damping
-        self._damping = damping if damping > self._damping else damping / config.damping_factor
+        self._damping = damping if damping > self._damping else damping / config.damping_factor**2
         if self._damping < config.tightest:
             self._damping = 0.0
         self._next_damping = self._damping
@@ -205,16 +201,13 @@ class TruncatedNewton:
     def _solve_definite(
         self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float
     ) -> tuple[CGResult, float, int]:
-        """Solve with a damping, increased until the matrix is positive definite, or else there is an iterate.
+        """Solve with a damping, increased until the matrix is positive definite.
 
         Returns the solution, the damping, and the number of iterations of all solutions.
         """
-        config = self.config
         solved = self._solve(matrix, gradient.ravel(), tolerance, damping)
         count = solved.iterations
-        while solved.negative_curvature and self._increases < config.max_damping_increases:
-            if solved.iterations > 1 and not config.definite:
-                break
+        while solved.negative_curvature and self._increases < self.config.max_damping_increases:
             damping, self._increases = self._increased(damping), self._increases + 1
             del solved  # large meshes have no memory for two solutions
             solved = self._solve(matrix, gradient.ravel(), tolerance, damping)

@@ -111,7 +111,7 @@ def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():
 
 def test_a_hessian_that_is_not_positive_definite_is_damped_until_it_is(problem):
     *_, value, gradient, hessian = problem
-    find, indefinite = TruncatedNewton(TruncatedNewtonConfig(max_damping_increases=8)), hessian.shifted(-1.0)
+    find, indefinite = TruncatedNewton(TruncatedNewtonConfig(max_damping_increases=16)), hessian.shifted(-1.0)
     found = find(value, gradient, indefinite)
     assert found.shift >= 0.05
     assert np.vdot(found.vector, gradient) < 0

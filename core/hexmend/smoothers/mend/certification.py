@@ -15,7 +15,7 @@ from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
-from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
+from hexmend.optimise.search_direction import TruncatedNewton
 from hexmend.quality import ElementQuality, locked_hexes, measure
 from hexmend.smoothers.mend.floors import FLOORS
 from hexmend.smoothers.mend.newton_steps import newton_step
@@ -143,7 +143,7 @@ class _Certification:
         barrier = MovableHexes(region.energy).barrier(*self._floors, config.band, config.band, 1.0)
         part, y = region.energy.with_barrier(barrier), region.inside(x)
         validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)
-        direction, gap = TruncatedNewton(TruncatedNewtonConfig(definite=False)), config.gap
+        direction, gap = TruncatedNewton(), config.gap
         for number in range(1, most + 1):
             step = newton_step(_with_term(part, validity), y, 0.0, direction)
             if step is None or step.alpha == 0:

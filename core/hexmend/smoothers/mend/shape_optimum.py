@@ -62,7 +62,7 @@ def _minimise(
     energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy with one p; if p rises afterwards, only until it hardly falls."""
-    direction = TruncatedNewton(TruncatedNewtonConfig(deflated=True, definite=False))
+    direction = TruncatedNewton(TruncatedNewtonConfig(deflated=True))
     x = energy.to_edge_units(points)
     values: list[float] = []
     before = 0.0

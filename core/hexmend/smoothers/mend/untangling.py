@@ -14,7 +14,7 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
+from hexmend.optimise.search_direction import TruncatedNewton
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
 from hexmend.smoothers.mend.newton_steps import newton_step
@@ -115,7 +115,7 @@ def untangle(
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     del points, quality  # large meshes have no memory for what is no longer needed
-    fewest, idle, direction = now.inverted, 0, TruncatedNewton(TruncatedNewtonConfig(definite=False))
+    fewest, idle, direction = now.inverted, 0, TruncatedNewton()
     while now.inverted and idle < PATIENCE:
         delta = min(MAX_DELTA, float(np.sqrt(epsilon * (epsilon - min(now.worst, 0.0)))))
         descent = newton_step(energy, now.x, delta, direction)
