@@ -25,7 +25,7 @@ class StoppingCriteria(Parametrised):
         AUTO,
         low=0,
         high=1_000_000,
-        help="Iteration limit of a run; auto: that of the method, 1,000 for mend and 300 for others.",
+        help="Iteration limit of a run; auto: that of the method, 5,000 for mend and 300 for others.",
         automatic=AUTO,
     )
     tolerance: float = parameter(
