@@ -103,6 +103,15 @@ class Floors:
         Where they begin.
     movable : callable
         Makes the values of the hexes that rise.
+
+    Attributes
+    ----------
+    values : Values
+        At the present positions.
+    reward : float
+        Of the last round.
+    touched : (m,) bool
+        Hexes near the floors of a round so far.
     """
 
     def __init__(
@@ -114,7 +123,7 @@ class Floors:
     ):
         self.energy, self._config, self._movable, self._hexes = energy, config, movable, movable(energy)
         self.solver_iterations, self.reward = 0, config.weight / config.first_gap
-        self._touched = np.zeros(energy.mesh.n_hexes, dtype=bool)  # hexes that have moved while floors rose
+        self.touched = np.zeros(energy.mesh.n_hexes, dtype=bool)
         self.move_to(energy.to_edge_units(points))
 
     @property
@@ -146,7 +155,7 @@ class Floors:
     def continued(self, energy: MeshEnergy, points: np.ndarray) -> Floors:
         """Return the nodes at points (n, 3) of an energy of the same hexes, with the reward that was reached."""
         other = Floors(energy, points, self._movable, self._config)
-        other.reward, other._touched = self.reward, self._touched
+        other.reward, other.touched = self.reward, self.touched
         return other
 
     def rise(self, quality_floor: float = -np.inf, enough: float = np.inf) -> Generator[Step, None, None]:
@@ -199,7 +208,7 @@ class Floors:
         Where hexes have moved while floors rose, and near the floors; or `everywhere`.
         """
         config, band, values = self._config, self._config.band, self.values
-        near = self._touched | (values.jacobians < jacobian + band) | (values.qualities < quality + band)
+        near = self.touched | (values.jacobians < jacobian + band) | (values.qualities < quality + band)
         near |= everywhere
         energy, hexes, region = self._around(near)
         x = values.x if region is None else region.inside(values.x)
@@ -224,7 +233,7 @@ class Floors:
         config, values = self._config, self.values
         near = values.jacobians < values.jacobian + reward.band
         near |= values.qualities < reward.quality_floor + reward.band
-        self._touched |= near
+        self.touched |= near
         energy, hexes, region = self._around(near)
         maximised = MaximisedFloor(_fitted(energy, config.fit_share * config.weight), reward, hexes)
         direction = FloorDirection(maximised)
