@@ -118,8 +118,8 @@ class Problem(ABC):
         return mesh
 
 
-#: Kinds of problems by name.
 PROBLEMS: Registry[Problem] = Registry("problem")
+"""Kinds of problems by name."""
 
 
 def register_problem(cls: type[Problem]) -> type[Problem]:

@@ -92,8 +92,8 @@ def _take(name: str, found: object) -> None:
         gallery_mesh(found)
 
 
-#: Generated meshes by name; those of other distributions are loaded when all names are asked for.
 GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh", load_plugins)
+"""Generated meshes by name; those of other distributions are loaded when all names are asked for."""
 
 
 def gallery_mesh(cls: G) -> G:

@@ -195,8 +195,8 @@ class TruncatedNewton:
         return SearchDirection(-solved.x.reshape(-1, 3), count, damping)
 
     def shortened(self) -> None:
-        """Damp the next direction more: the line search has shortened the step along this one."""
-        self._damping = max(self._damping, self._increased(self._used_damping))
+        """Damp the next direction more, by two increases: the line search has shortened the step along this one."""
+        self._damping = max(self._damping, self._increased(self.config.damping_factor * self._used_damping))
 
     def _solve_definite(
         self, matrix: AssembledHessian, gradient: np.ndarray, tolerance: float, damping: float

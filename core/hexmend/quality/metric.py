@@ -98,5 +98,5 @@ def _take(name: str, metric: object) -> None:
         metric.register()
 
 
-#: Metrics by name; those of other distributions are loaded when all names are asked for.
 METRICS: Registry[Metric] = Registry("metric", load_plugins)
+"""Metrics by name; those of other distributions are loaded when all names are asked for."""

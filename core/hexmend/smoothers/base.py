@@ -240,8 +240,8 @@ def _take(name: str, found: object) -> None:
         method(found)
 
 
-#: Methods by name; those of other distributions are loaded when all names are asked for.
 METHODS: Registry[type[Smoother]] = Registry("method", load_plugins)
+"""Methods by name; those of other distributions are loaded when all names are asked for."""
 
 
 def _check_texts(cls: type, *names: str) -> None:

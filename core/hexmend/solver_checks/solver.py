@@ -129,8 +129,8 @@ def check_mesh(mesh: Mesh, solver: str, quality: ElementQuality | None = None) -
     return Report(chosen, tuple(result for check in chosen.checks if (result := check.on(measures)).total))
 
 
-#: Solvers by name.
 SOLVERS: Registry[Solver] = Registry("solver")
+"""Solvers by name."""
 
 
 def _check(better: str, level: str, of: str, where: str = "", **fields: Any) -> Check:

@@ -105,8 +105,8 @@ class Format:
     remove: Callable[[Path], None] | None = None
 
 
-#: Formats of Hexmend by name; those of other distributions are in `hexmend.io.format_lookup`.
 FORMATS: Registry[Format] = Registry("format")
+"""Formats of Hexmend by name; those of other distributions are in `hexmend.io.format_lookup`."""
 
 
 def deferred(function: str) -> Callable[..., Any]:

@@ -19,7 +19,7 @@ from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
 Mend = METHODS["mend"]
-SHORT = StoppingCriteria(max_iterations=40)
+SHORT = StoppingCriteria(max_iterations=200)
 
 
 def chamfered(n=3):
