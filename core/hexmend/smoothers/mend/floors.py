@@ -122,7 +122,7 @@ class Floors:
         config: FloorsConfig = FLOORS,
     ):
         self.energy, self._config, self._movable, self._hexes = energy, config, movable, movable(energy)
-        self.solver_iterations, self.reward = 0, config.weight / config.first_gap
+        self.reward = config.weight / config.first_gap
         self.touched = np.zeros(energy.mesh.n_hexes, dtype=bool)
         self.move_to(energy.to_edge_units(points))
 
@@ -221,7 +221,7 @@ class Floors:
                 break
             x = step.x
             self._take(region, hexes, x)
-            yield self._step()
+            yield self._step(**step.diagnostics(0.0))
             if -step.slope < config.centred * config.relax_weight:
                 break
 
@@ -246,7 +246,7 @@ class Floors:
                 break
             x = step.x
             self._take(region, hexes, x)
-            yield self._step(gap=reward.gap)
+            yield self._step(gap=reward.gap, **step.diagnostics(0.0))
             if is_centred or self.values.jacobian >= enough:
                 break
         return maximised.floor(x).t, is_centred
@@ -256,7 +256,6 @@ class Floors:
         step = newton_step(energy, x, 0.0, direction)
         if step is None or step.alpha < DESCENT.short:
             return None
-        self.solver_iterations += step.direction.solver_iterations
         if step.backtracks > 1:
             direction.shortened()
         return step
@@ -285,7 +284,7 @@ class Floors:
     def _step(self, **diagnostics: float) -> Step:
         """The step to the present positions."""
         values = self.values
-        given = {"least": values.jacobian, "least_q": values.quality, "solver_iterations": self.solver_iterations}
+        given = {"least": values.jacobian, "least_q": values.quality}
         return Step(self.points, given | diagnostics, intermediate=True, norm=self.energy.norm)
 
 

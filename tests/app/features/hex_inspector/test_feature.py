@@ -139,11 +139,8 @@ FIGURES = measure(MESH.points, MESH.hexes)
 
 
 @pytest.fixture
-def worst_list(qtbot):
-    widget = WorstList()
-    qtbot.addWidget(widget)
-    widget.resize(600, 300)
-    widget.show()
+def worst_list(shown):
+    widget = shown(WorstList(), 600, 300)
     widget.set_figures(MESH, FIGURES)
     actions = QAction("Previous", widget), QAction("Next", widget)
     for action, handle in zip(actions, (widget.previous, widget.next), strict=True):
@@ -235,12 +232,8 @@ WORST_OF_SMALL = int(measure(SMALL.points, SMALL.hexes).scaled_jacobian.argmin()
 
 
 @pytest.fixture
-def panel(qtbot):
-    widget = HexPanel()
-    qtbot.addWidget(widget)
-    widget.resize(520, 260)
-    widget.show()
-    return widget
+def panel(shown):
+    return shown(HexPanel(), 520, 260)
 
 
 def test_without_a_hex_the_panel_shows_a_hint(panel):

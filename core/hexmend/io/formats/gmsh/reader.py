@@ -1,6 +1,6 @@
 """Reader of Gmsh's format, versions 1, 2 and 4.1, text and (except version 1) binary, section by section.
 
-Coordinates of a file in its section $Nodes.
+It also locates the coordinates of a file in its section $Nodes.
 """
 
 from __future__ import annotations
