@@ -19,7 +19,7 @@ from hexmend.solver_checks.quantities import quantity
 from hexmend.terminal_text import count_phrase
 
 
-def jacobian_ratios(measures: Measures) -> np.ndarray:
+def _certified_ratios(measures: Measures) -> np.ndarray:
     """Certified lower bound of the least det J of each hex over the greatest, (m,); above 0 just where it is valid."""
     mesh = measures.mesh
     bounds = jacobian_bounds(mesh.points, mesh.hexes, mesh.mid_nodes)
@@ -31,7 +31,7 @@ def jacobian_ratios(measures: Measures) -> np.ndarray:
 
 VALIDITY = Check(
     name="invalid hexes",
-    of=jacobian_ratios,
+    of=_certified_ratios,
     unit_of_count="hexes",
     better=1,
     limit=0.0,
