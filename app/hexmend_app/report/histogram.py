@@ -1,12 +1,16 @@
-"""Chart of distributions: numbers of hexes by quality."""
+"""Description of a histogram, and its drawing for print."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from hexmend_app.report.charts import ChartStyle, add_legend
+from hexmend_app.theme.palette import INVERTED
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -16,63 +20,109 @@ if TYPE_CHECKING:
 #: Height of the figure over its width.
 _SHAPE = 0.6
 
-#: Height of a broken bar over that of the tallest bin.
-_BROKEN = 1.08
+#: Height of the axis over the tallest bin.
+_HEADROOM = 1.15
 
 
-@dataclass(frozen=True)
-class Outline:
+@dataclass(frozen=True, eq=False)
+class Series:
     """One distribution.
 
     Parameters
     ----------
-    label, colour : str
-    heights : sequence of float
-        Heights of the bins, which divide the interval from 0 to 1.
-    bars : sequence of (left, right, height)
-        Bars outside the bins; one that is taller than all bins is broken, with its number above.
+    name, colour : str
+        The colour is #rrggbb.
+    counts : sequence of float
+        Heights of the bins; bin k spans k to k + 1.
+    inverted : float
+        Height of the column of inverted hexes.
     filled : bool
+        True for bars, False for an outline.
+    colours : sequence of str
+        Colours of the bars, #rrggbb; by default `colour`.
     note : str
-        Text after the label, in brackets.
+        Text after the name in a printed legend.
     """
 
-    label: str
+    name: str
     colour: str
-    heights: Sequence[float]
-    bars: Sequence[tuple[float, float, float]] = ()
+    counts: Sequence[float]
+    inverted: float = 0
     filled: bool = False
+    colours: Sequence[str] = ()
     note: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Histogram:
-    """Distributions with a common axis.
+    """Distributions with a common axis, and a column of inverted hexes left of the bins if there are any.
 
     Parameters
     ----------
-    outlines : sequence of Outline
+    series : sequence of Series
         The first is drawn at the bottom.
     title, xlabel, ylabel : str
-    ticks : sequence of (place, text)
-        Labels below the bins, which lie from 0 to 1, and below the bars.
-    extent : (left, right)
-        Range of the axis.
+    ticks : sequence of (position, text)
+        Positions are counted in bins.
     log : bool
         Logarithmic heights.
+    top : float
+        Upper end of the heights; by default it fits the bins. A taller column of inverted hexes is cut off there.
     """
 
-    outlines: Sequence[Outline]
+    series: Sequence[Series]
     title: str
     xlabel: str
     ylabel: str
     ticks: Sequence[tuple[float, str]]
-    extent: tuple[float, float]
     log: bool = False
+    top: float = 0.0
 
     @property
     def names(self) -> list[str]:
-        """Labels of the distributions, each once."""
-        return list(dict.fromkeys(one.label for one in self.outlines))
+        """Names of the distributions, each once."""
+        return list(dict.fromkeys(one.name for one in self.series))
+
+    @property
+    def bins(self) -> int:
+        """Number of bins."""
+        return max((len(one.counts) for one in self.series), default=1)
+
+    @property
+    def column(self) -> tuple[float, float] | None:
+        """Left and right end of the column of inverted hexes; None without inverted hexes."""
+        return (-0.11 * self.bins, -0.05 * self.bins) if any(one.inverted for one in self.series) else None
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """Left and right end of the plot."""
+        return (self.column or (0.0, 0.0))[0] - 0.02 * self.bins, 1.02 * self.bins
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Lower and upper end of the heights."""
+        drawn = [height for one in self.series for height in (*one.counts, one.inverted) if height > 0]
+        tallest = max((height for one in self.series for height in one.counts), default=0) or max(drawn, default=1)
+        top = self.top or tallest
+        if not self.log:
+            return 0.0, _HEADROOM * top
+        floor = 0.5 * min(1.0, *drawn, top)
+        return floor, floor * (top / floor) ** _HEADROOM
+
+    def steps(self, series: Series) -> tuple[np.ndarray, np.ndarray]:
+        """Return the ends of the steps of a series, (k + 1,) float64, and their heights, (k,) float64.
+
+        They are the bins, and left of them the column of inverted hexes and a step of height 0.
+        """
+        edges, heights = np.arange(len(series.counts) + 1.0), np.asarray(series.counts, dtype=float)
+        if self.column is None:
+            return edges, heights
+        return np.concatenate([self.column, edges]), np.concatenate([[series.inverted, 0.0], heights])
+
+    def step_colours(self, series: Series) -> list[str]:
+        """Return the colours of the steps of a series, #rrggbb."""
+        colours = list(series.colours) or [series.colour] * len(series.counts)
+        return colours if self.column is None else [INVERTED, series.colour, *colours]
 
     def draw(self, style: ChartStyle) -> Figure:
         """Draw the figure.
@@ -84,40 +134,42 @@ class Histogram:
         """
         figure = style.figure(_SHAPE)
         axes = figure.subplots()
-        top = max((height for outline in self.outlines for height in outline.heights), default=0) or 1.0
-        named = [_draw(axes, outline, top, style) for outline in self.outlines]
-        drawn = [h for one in self.outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
-        if self.log and drawn:
-            axes.set(yscale="log", ylim=(0.8 * min(drawn), None))
-        axes.set(xlim=self.extent, xlabel=self.xlabel, ylabel=self.ylabel, title=style.heading(self.title))
-        axes.set_xticks([place for place, _ in self.ticks], [text for _, text in self.ticks])
-        axes.grid(alpha=0.3)
-        add_legend(axes, named)
+        add_legend(axes, draw_histogram(axes, self, style.name))
+        axes.set_title(style.heading(self.title))
         return figure
 
 
-def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> tuple[Artist, str]:
-    """Draw one distribution; return its line and its name for the legend."""
-    edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
-    width = 1.0 if outline.filled else 1.6
-    name = style.name(outline.label) + (f" ({outline.note})" if outline.note else "")
-    if outline.filled:
-        axes.stairs(outline.heights, edges, color=outline.colour, fill=True, alpha=0.35)
-    line = axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width)
-    for left, right, height in outline.bars:
-        fill: dict[str, Any] = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
-        end = _BROKEN * top if height > top else height
-        axes.bar(left, end, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
-        if height > top:
-            _break(axes, left, right, top, f"{height:,.0f}", outline.colour)
-    return line, name
+def draw_histogram(axes: Axes, histogram: Histogram, name: Callable[[str], str] = str) -> list[tuple[Artist, str]]:
+    """Draw a histogram with matplotlib, without title and legend.
 
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    histogram : Histogram
+    name : callable
+        Returns the printed name of a series.
 
-def _break(axes: Axes, left: float, right: float, top: float, number: str, colour: str) -> None:
-    """Draw a zigzag across a bar that is too tall for the axis, and its number above it."""
-    places = [left + (right - left) * k / 8 for k in range(9)]
-    for wide, of in ((5.0, colour), (3.4, "white")):
-        heights = [top * (0.90 if k % 2 else 0.93) for k in range(9)]
-        axes.plot(places, heights, color=of, linewidth=wide, zorder=5, solid_capstyle="butt")
-    above: dict[str, Any] = {"xytext": (0, 3), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
-    axes.annotate(number, ((left + right) / 2, _BROKEN * top), color=colour, **above)
+    Returns
+    -------
+    list of (Artist, str)
+        The line of each series, and its text in a legend.
+    """
+    (floor, top), column = histogram.heights, histogram.column
+    named = []
+    for one in histogram.series:
+        edges, heights = histogram.steps(one)
+        if one.filled:
+            bars = {"align": "edge", "bottom": floor, "alpha": 1.0 if one.colours else 0.35}
+            above = np.maximum(heights - floor, 0)
+            axes.bar(edges[:-1], above, np.diff(edges), color=histogram.step_colours(one), **bars)
+        line = axes.stairs(heights, edges, baseline=floor, color=one.colour, linewidth=1.0 if one.filled else 1.6)
+        named.append((line, name(one.name) + (f" ({one.note})" if one.note else "")))
+    if histogram.log:
+        axes.set_yscale("log")
+    ticks = [*([] if column is None else [(column[1], tr("inverted"))]), *histogram.ticks]
+    axes.set_xticks([position for position, _ in ticks], [text for _, text in ticks])
+    if column is not None:
+        axes.get_xticklabels()[0].set_horizontalalignment("right")  # clear of the next text
+    axes.set(xlim=histogram.extent, ylim=(floor, top), xlabel=histogram.xlabel, ylabel=histogram.ylabel)
+    axes.grid(alpha=0.3)
+    return named

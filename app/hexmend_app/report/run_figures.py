@@ -10,7 +10,8 @@ from typing import Any
 from hexmend.iteration.figures import HISTORY, objective_changes
 from hexmend_app.report.charts import COLOURS, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
-from hexmend_app.report.histogram import Histogram, Outline
+from hexmend_app.report.distribution import Axis
+from hexmend_app.report.histogram import Histogram, Series
 
 #: Colour of the initial mesh.
 _INITIAL_COLOUR = "#5b6573"
@@ -42,12 +43,12 @@ def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, titl
     HexmendError
         For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
-    outlines = [
-        Outline(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _INITIAL_COLOUR, numbers, filled=k == 0)
+    series = [
+        Series(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _INITIAL_COLOUR, numbers, filled=k == 0)
         for k, (name, numbers) in enumerate(counts.items())
     ]
-    ticks = [(k / 5, f"{k / 5:g}") for k in range(6)]
-    histogram = Histogram(outlines, title, "q(H)", "hexes", ticks, (0.0, 1.0))
+    axis = Axis("q", bins=len(series[0].counts))
+    histogram = Histogram(series, title, axis.title, "hexes", axis.ticks())
     write_chart(path, histogram.draw, ChartStyle(width=width_mm, resolution=_DPI))
 
 

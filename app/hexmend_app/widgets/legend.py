@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend_app.theme.palette import Role
@@ -27,6 +27,13 @@ class Swatch(QWidget):
         pale.setAlpha(90)
         painter.setBrush(pale)
         painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
+
+
+def swatch_icon(colour: Role | str) -> QIcon:
+    """Return an icon of one colour."""
+    picture = QPixmap(12, 10)
+    picture.fill(QColor(str(colour)))
+    return QIcon(picture)
 
 
 def legend_entry(text: str, colour: Role | str) -> QWidget:

@@ -3,58 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QPainter
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame
 
-from hexmend_app.theme.palette import LINE, MUTED, Role
+from hexmend_app.theme.palette import LINE, MUTED
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
-
-#: Least distance of two tick texts of different colours, in pixels.
-_TEXT_GAP = 4.0
-
-
-class CalmAxis(pg.AxisItem):
-    """Axis with thin lines and tabular digits; `colours` holds the colours of tick texts by text."""
-
-    def __init__(self, orientation: str):
-        super().__init__(orientation)
-        self.colours: dict[str, Role] = {}
-        self.enableAutoSIPrefix(False)
-        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False, maxTickLevel=0)
-
-    def paint_lines(self) -> None:
-        """Apply the colours of the current theme."""
-        self.setPen(str(LINE))
-        self.setTickPen(str(LINE))
-        self.setTextPen(str(MUTED))
-
-    def drawPicture(self, p: QPainter, axisSpec: tuple, tickSpecs: list, textSpecs: list) -> None:
-        """Draw the axis, then the tick texts that have a colour of their own, left of the next one."""
-        coloured = [spec for spec in textSpecs if spec[2] in self.colours]
-        others = [spec for spec in textSpecs if spec[2] not in self.colours]
-        super().drawPicture(p, axisSpec, tickSpecs, others)
-        for rect, flags, text in coloured:
-            p.setPen(pg.mkPen(str(self.colours[text])))
-            p.drawText(left_of_next(rect, [other for other, *_ in others]), int(flags), text)
-
-
-def left_of_next(rect: QRectF, others: Sequence[QRectF]) -> QRectF:
-    """Move the rectangle of a text to the left until it is clear of the rectangles to its right."""
-    following = [other.left() for other in others if other.center().x() > rect.center().x()]
-    excess = rect.right() + _TEXT_GAP - min(following, default=math.inf)
-    return rect.translated(-max(excess, 0.0), 0.0)
 
 
 def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
-    """Return a plot without buttons, menu, zooming and frame, with a transparent background."""
-    axes = {"left": CalmAxis("left"), "bottom": CalmAxis("bottom")}
-    plot = pg.PlotWidget(
-        background=None, viewBox=view or pg.ViewBox(enableMenu=False), axisItems=axes, enableMenu=False
-    )
+    """Return a plot without buttons, menu, zooming and frame, with thin axes and a transparent background."""
+    plot = pg.PlotWidget(background=None, viewBox=view or pg.ViewBox(enableMenu=False), enableMenu=False)
     plot.setFrameShape(QFrame.Shape.NoFrame)
     plot.hideButtons()
     plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # it has no keys
@@ -63,10 +23,22 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
     plot.getViewBox().setMouseEnabled(x=False, y=False)
     plot.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     font = tabular(smaller(plot.font()))
-    for axis in axes.values():
+    plot.getPlotItem().setContentsMargins(0, 0, 10, 0)  # half of the last text of the axis
+    axes = [plot.getAxis("left"), plot.getAxis("bottom")]
+    for axis in axes:
+        axis.enableAutoSIPrefix(False)
+        axis.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False, maxTickLevel=0)
         axis.setTickFont(font)
-        on_theme_change(plot, axis.paint_lines)
-    on_theme_change(plot, plot.resetCachedContent)  # Qt caches the background
+        axis.label.setFont(font)
+
+    def paint() -> None:
+        for axis in axes:
+            axis.setPen(str(LINE))
+            axis.setTickPen(str(LINE))
+            axis.setTextPen(str(MUTED))
+        plot.resetCachedContent()  # Qt caches the background
+
+    on_theme_change(plot, paint)
     return plot
 
 

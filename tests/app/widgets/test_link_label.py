@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtCore import QRectF, Qt, QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QImage, QShortcut
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QToolButton, QVBoxLayout, QWidget
@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QLineEdit, QToolButton, QVBoxLayout, QWidget
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.plots import left_of_next
 from hexmend_app.widgets.wording import figure, name_in_words, short_number
 from tests.app.driving import named
 
@@ -90,21 +89,6 @@ def test_a_value_that_is_not_finite_is_a_dash():
 
 
 # Tick texts that have a colour of their own stay clear of the other ones.
-
-
-PLACES_OF_TEXTS = [
-    (10.0, [(80.0, 8.0), (120.0, 8.0)], 10.0),  # room enough
-    (40.0, [(80.0, 8.0), (120.0, 8.0)], 26.0),  # 50 wide: it would end at 90
-    (40.0, [(120.0, 8.0), (80.0, 8.0)], 26.0),  # whatever their order
-    (40.0, [(10.0, 8.0)], 40.0),  # a text on the left does not push it
-    (40.0, [], 40.0),
-]
-
-
-@pytest.mark.parametrize(("left", "others", "expected"), PLACES_OF_TEXTS)
-def test_a_text_moves_to_the_left_of_the_next_one(left, others, expected):
-    rect = left_of_next(QRectF(left, 3, 50, 12), [QRectF(at, 3, width, 12) for at, width in others])
-    assert rect == QRectF(expected, 3, 50, 12)
 
 
 # Message bar: queue, repetitions, copying and dismissing.

@@ -1,111 +1,151 @@
-"""Distributions of the histogram, at the start, now and of snapshots, on one axis."""
+"""Distributions in the histogram: their description as a histogram, their counts as CSV, and the texts about them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
-from hexmend_app.features.histogram.outline import Gradient, Series
-from hexmend_app.theme.palette import BLUE, GREY, KEPT
+from hexmend.quality import METRICS
+from hexmend_app.picture.visibility import Show
+from hexmend_app.report.distribution import Axis, Distribution
+from hexmend_app.report.histogram import Histogram, Series
+from hexmend_app.scene.colour.colouring import Colouring
+from hexmend_app.theme.palette import Role
 from hexmend_app.translation import tr
+from hexmend_app.widgets.metric_texts import in_sentence
+from hexmend_app.widgets.wording import counted
 
 
-class Distributions:
-    """Distributions of a metric, on an axis that fits the values at the start.
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """Distribution that is shown in the histogram.
 
-    Attributes
+    Parameters
     ----------
-    axis : Axis
-    current : Distribution or None
-    inside : int
-        Number of hexes of now that are invalid inside.
-    snapshots : list of (slot, name, Distribution)
-    gradient : Gradient
-        Colours of the view along the axis; () if they show something else.
+    name : str
+    colour : Role
+    distribution : Distribution
+    filled : bool
+        True for bars, False for an outline.
     """
 
-    def __init__(self) -> None:
-        self.axis = Axis("q")
-        self.gradient: Gradient = ()
-        self._bins = DEFAULT_BINS
-        self._clear()
+    name: str
+    colour: Role
+    distribution: Distribution
+    filled: bool = False
 
-    def reset(self, metric: str) -> None:
-        """Remove all distributions and change the metric."""
-        self._clear()
-        self.axis = Axis.fitted(metric, np.empty(0), np.empty(0, bool))
 
-    def set_bins(self, bins: int) -> None:
-        """Change the number of bins."""
-        self._bins = bins
-        self._recount()
+@dataclass(frozen=True, eq=False)
+class ShownHistogram:
+    """Distributions on one axis.
 
-    def set_initial(self, values: np.ndarray, inverted: np.ndarray) -> None:
-        """Set the distribution at the start, and fit the axis to it.
+    Parameters
+    ----------
+    axis : Axis
+    shown : sequence of Shown
+        In the order of the legend.
+    log : bool
+        True for logarithmic heights.
+    cumulative : bool
+        True for shares of hexes up to a value, in percent, instead of numbers of hexes.
+    """
 
-        Parameters
-        ----------
-        values : (m,) float64
-        inverted : (m,) bool
+    axis: Axis
+    shown: Sequence[Shown]
+    log: bool = False
+    cumulative: bool = False
 
-        Raises
-        ------
-        ValueError
-            If the arrays differ in shape.
-        """
-        self._initial = self._count(values, inverted)
-        axis = Axis.fitted(self.axis.metric, self._initial.values, self._initial.is_inverted)
-        if axis != self.axis:
-            self.axis = axis
-            self._recount()
+    def _scale(self, one: Shown) -> float:
+        return 100 / max(one.distribution.total, 1) if self.cumulative else 1.0
 
-    def set_current(self, values: np.ndarray, inverted: np.ndarray, inside: int = 0) -> None:
-        """Set the distribution of now, and the number of hexes that are invalid inside; see `set_initial`."""
-        self.current, self.inside = self._count(values, inverted), inside
-
-    def set_snapshots(self, snapshots: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
-        """Set the distributions of snapshots, and count only those with new values.
+    def describe(self, title: str = "", for_print: bool = False, colours: Sequence[str] = ()) -> Histogram:
+        """Describe the histogram, to be drawn.
 
         Parameters
         ----------
-        snapshots : sequence of (slot, name, values, inverted)
-            Arrays as in `set_initial`.
+        title : str
+        for_print : bool
+            Use the colours of the light theme instead of those of the current one.
+        colours : sequence of str
+            Colours of the bars of the filled distributions; cumulative shares have none, they would hide each other.
         """
-        before = {slot: distribution for slot, _, distribution in self.snapshots}
-        self.snapshots: list[tuple[int, str, Distribution]] = []
-        for slot, name, values, inverted in snapshots:
-            distribution = before.get(slot)
-            if distribution is None or distribution.values is not values:
-                distribution = self._count(values, inverted)
-            self.snapshots.append((slot, name, distribution))
+        series = []
+        for one in self.shown:
+            inverted, filled = one.distribution.inverted, one.filled and not self.cumulative
+            series.append(
+                Series(
+                    one.name,
+                    one.colour.light if for_print else str(one.colour),
+                    (one.distribution.counts(self.axis, self.cumulative) * self._scale(one)).tolist(),
+                    inverted * self._scale(one),
+                    filled,
+                    colours if filled else (),
+                    tr("{count:,} inverted", count=inverted),
+                )
+            )
+        label = tr("% of hexes up to x") if self.cumulative else tr("hexes")
+        return Histogram(series, title, self.axis.title, label, self.axis.ticks(), self.log)
 
-    def series(self) -> list[Series]:
-        """Return the distributions as they are drawn, in the order of the legend.
+    def csv_text(self, names: Mapping[str, str]) -> str:
+        """Write the heights as CSV with a row per bin, and a column per distribution; `names` maps to printed names."""
+        prefix = tr("% of hexes up to: ") if self.cumulative else ""
+        titles = [prefix + (names.get(one.name) or one.name) for one in self.shown]
+        low, high = [f"{edge:.7g}" for edge in self.axis.edges[:-1]], [f"{edge:.7g}" for edge in self.axis.edges[1:]]
+        low[0], high[-1] = "-inf" if self.axis.below else low[0], "inf" if self.axis.above else high[-1]
+        series = self.describe().series
+        out = io.StringIO()
+        rows = csv.writer(out, lineterminator="\n")
+        rows.writerow([f"{self.axis.metric} from", f"{self.axis.metric} to", *titles])
+        rows.writerow(["inverted", "inverted", *(f"{one.inverted:.6g}" for one in series)])
+        for bin, ends in enumerate(zip(low, high, strict=True)):
+            rows.writerow([*ends, *(f"{one.counts[bin]:.9g}" for one in series)])
+        return out.getvalue()
 
-        Where that of now has the colours of the view, which are opaque, that of the start is an outline over it.
-        """
-        series, coloured = [], bool(self.gradient)
-        if self._initial is not None:
-            series.append(Series("start", tr("at the start"), GREY, self._initial, filled=not coloured))
-        if self.current is not None:
-            now = Series("now", tr("now"), BLUE, self.current, filled=True, current=True, gradient=self.gradient)
-            series.insert(0 if coloured else len(series), now)
-        return series + [Series(str(slot), name, KEPT[slot], counts) for slot, name, counts in self.snapshots]
+    def describe_at(self, x: float) -> str:
+        """Describe the bin at a position of the plot, with a line for each distribution; "" if there is none."""
+        column = self.describe().column
+        if column is not None and column[0] <= x <= column[1]:
+            return self._lines(tr("inverted"), [one.distribution.inverted for one in self.shown])
+        if not 0 <= x < self.axis.bins:
+            return ""
+        bin = int(x)
+        low, high = (self.axis.text(edge) for edge in self.axis.edges[bin : bin + 2])
+        metric = in_sentence(METRICS[self.axis.metric])
+        if self.cumulative:
+            title = tr("inverted, or {metric} up to {high}", metric=metric, high=high)
+        elif self.axis.below and bin == 0:
+            title = f"{metric} < {high}"
+        elif self.axis.above and bin == self.axis.bins - 1:
+            title = f"{metric} ≥ {low}"
+        else:
+            title = f"{metric} {low} – {high}"
+        return self._lines(title, [one.distribution.counts(self.axis, self.cumulative)[bin] for one in self.shown])
 
-    def _clear(self) -> None:
-        self._initial = self.current = None
-        self.inside = 0
-        self.snapshots = []
+    def _lines(self, title: str, counts: Sequence[int]) -> str:
+        lines = [title]
+        for one, count in zip(self.shown, counts, strict=True):
+            share = f"{count * self._scale(one):.4g} %, " if self.cumulative else ""
+            lines.append(f"{one.name}: {share}{counted(int(count), 'hex')}")
+        return "\n".join(lines)
 
-    def _count(self, values: np.ndarray, inverted: np.ndarray) -> Distribution:
-        return distribute(values, inverted, self.axis, self._bins)
 
-    def _recounted(self, distribution: Distribution | None) -> Distribution | None:
-        return distribution and self._count(distribution.values, distribution.is_inverted)
+def range_summary(now: Distribution | None, range: Show | None, inside: int) -> str:
+    """Describe the number of hexes in a range; of all hexes and of invalid ones, if it is None."""
+    if now is None:
+        return tr("No mesh is open.")
+    if range is not None:
+        return tr("{count:,} of {hexes} shown", count=now.within(range), hexes=counted(now.total, "hex"))
+    counts = {"hexes": counted(now.total, "hex"), "inverted": now.inverted, "inside": inside}
+    if inside:
+        return tr("{hexes}, {inverted:,} inverted · {inside:,} invalid inside", **counts)
+    return tr("{hexes}, {inverted:,} inverted", **counts)
 
-    def _recount(self) -> None:
-        self._initial, self.current = self._recounted(self._initial), self._recounted(self.current)
-        self.snapshots = [(slot, name, self._recounted(counts)) for slot, name, counts in self.snapshots]
+
+def bin_colours(colouring: Colouring, axis: Axis) -> list[str]:
+    """Return the colours of the view, #rrggbb, at the middles of the bins of an axis."""
+    middles = (axis.edges[:-1] + axis.edges[1:]) / 2
+    return [f"#{bytes(colour).hex()}" for colour in colouring.colours(middles, np.zeros(len(middles), bool))]

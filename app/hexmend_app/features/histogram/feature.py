@@ -7,25 +7,23 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.quality import METRICS, measure
+from hexmend.report.documents import write_text
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
-from hexmend_app.features.histogram.histogram_file import HistogramExport
-from hexmend_app.features.histogram.outline import Gradient
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
-from hexmend_app.report.charts import ChartStyle
+from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
+from hexmend_app.report.distribution import Distribution
+from hexmend_app.report.histogram import Histogram
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.mesh.snapshots import Snapshot
-from hexmend_app.theme.palette import BLUE, GREY, KEPT
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
-
-#: Number of colours between which those of the bars lie.
-_COLOURS = 33
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
@@ -46,17 +44,18 @@ class FeatureHistogram(Feature):
         self._document, self._snapshots = self.session.document, self.session.snapshots
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last export
-        #: Metric, points and values of the snapshots, by slot.
-        self._snapshot_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
+        self._initial: Distribution | None = None
+        self._current: Distribution | None = None
+        #: Metric, points and distribution of the snapshots, by slot.
+        self._kept: dict[int, tuple[str, np.ndarray, Distribution]] = {}
         panel = self.panel = QualityHistogram()
         panel.head.metric_chosen.connect(self._on_metric)
         panel.range_changed.connect(self._filter)
-        panel.head.keep.triggered.connect(self._keep)
+        panel.head.keep.clicked.connect(self._keep)
         panel.legend.renamed.connect(self._snapshots.rename)
         panel.legend.removed.connect(self._snapshots.remove)
         panel.head.save.triggered.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
-        panel.colours_dragged.connect(lambda low, high: self._view.change(colours={"range": (low, high)}))
 
     def states(self) -> Sequence[StatePart]:
         """Return the settings of the histogram."""
@@ -99,21 +98,20 @@ class FeatureHistogram(Feature):
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.colours.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
-            colouring = self._colouring()
-            self.panel.set_gradient(self._gradient(colouring))
-            self.panel.set_colour_range(None if colouring is None else (colouring.low, colouring.high))
         self.panel.set_range(range)
 
     def _count(self) -> None:
-        start, now = self._document.start, self._document.now
+        start, now, snapshots = self._document.start, self._document.now, self._snapshots.all
         if self._seen.changed("start", self.metric, start):
-            self.panel.set_initial(self._values(start), start.figures.inverted)
-            self._seen.changed("now")
-        if self._seen.changed("snapshots", self.metric, self._snapshots.all, start):
-            self._show_snapshots()
+            self._initial = self._distribution(start)
         if self._seen.changed("now", self.metric, now):
-            figures = now.figures
-            self.panel.set_current(self._values(now), figures.inverted, figures.n_invalid - figures.n_inverted)
+            self._current = self._distribution(now)
+        colouring = self._colouring()
+        if self._seen.changed("all", self.metric, start, now, snapshots, colouring):
+            self._kept = {one.slot: self._distribution_of(one) for one in snapshots}
+            kept = [(one.slot, one.name, self._kept[one.slot][2]) for one in snapshots]
+            inside = now.figures.n_invalid - now.figures.n_inverted
+            self.panel.show_distributions(self._initial, self._current, kept, inside, colouring)
 
     def _colouring(self) -> Colouring | None:
         """Return the colouring of the view; None if it shows another metric or none."""
@@ -122,17 +120,8 @@ class FeatureHistogram(Feature):
             return None
         return colouring
 
-    def _gradient(self, colouring: Colouring | None) -> Gradient:
-        """Return the colours of the view along the axis; () without colouring."""
-        if colouring is None:
-            return ()
-        axis, positions = self.panel.axis, np.linspace(0.0, 1.0, _COLOURS)
-        values = axis.low + positions * (axis.high - axis.low)
-        colours = colouring.colours(values, np.zeros(_COLOURS, bool))
-        return tuple((float(at), f"#{bytes(colour).hex()}") for at, colour in zip(positions, colours, strict=True))
-
-    def _values(self, state: State) -> np.ndarray:
-        return metric_values(self.metric, state.mesh, state.figures)
+    def _distribution(self, state: State) -> Distribution:
+        return Distribution.of(metric_values(self.metric, state.mesh, state.figures), state.figures.inverted)
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -157,19 +146,14 @@ class FeatureHistogram(Feature):
         moment = self.session.history.iteration_of(now)
         self._snapshots.add("kept" if moment is None else moment.name, now)
 
-    def _show_snapshots(self) -> None:
-        snapshots = self._snapshots.all
-        values = self._snapshot_values = {one.slot: self._values_of(one) for one in snapshots}
-        self.panel.set_snapshots([(one.slot, one.name, values[one.slot][2], one.inverted) for one in snapshots])
-
-    def _values_of(self, snapshot: Snapshot) -> tuple[str, np.ndarray, np.ndarray]:
-        """Return metric, points and values of a snapshot, computed only if metric or points have changed."""
-        known = self._snapshot_values.get(snapshot.slot)
+    def _distribution_of(self, snapshot: Snapshot) -> tuple[str, np.ndarray, Distribution]:
+        """Return metric, points and distribution of a snapshot, computed only if metric or points have changed."""
+        known = self._kept.get(snapshot.slot)
         if known is not None and known[0] == self.metric and known[1] is snapshot.points:
             return known
         mesh = self._document.now.mesh.with_points(snapshot.points)
         values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
-        return self.metric, snapshot.points, values
+        return self.metric, snapshot.points, Distribution.of(values, snapshot.inverted)
 
     # Files
 
@@ -181,22 +165,25 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
-        chart, proposed = self._exported().figure(), f"{self.host.stem}-histogram.svg"
+        chart, proposed = self._described(), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
         return self.host.try_and_report(
             tr("Histogram not saved"),
-            lambda: self._exported().write(path, style),
+            lambda: self._write(Path(path), style or ChartStyle()),
             tr("Histogram saved to {path}", path=path),
         )
 
-    def _exported(self) -> HistogramExport:
-        """Return the histogram that is shown."""
-        panel, document = self.panel, self._document
-        start, now = document.start.mesh, document.now.mesh
-        drawn = [(tr("at the start"), GREY.light, True, start), (tr("now"), BLUE.light, True, now)]
-        for snapshot in self._snapshots.all:
-            drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, now.with_points(snapshot.points)))
-        return HistogramExport(document.name, self.metric, drawn, panel.head.bins.value(), panel.log, panel.cumulative)
+    def _write(self, path: Path, style: ChartStyle) -> None:
+        if suffix_for(path, "a histogram", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
+            self._count()
+            write_text(path, self.panel.shown.csv_text(style.names))
+        else:
+            write_chart(path, self._described().draw, style)
+
+    def _described(self) -> Histogram:
+        """Return the histogram of the panel, for print."""
+        self._count()
+        return self.panel.shown.describe(self._document.name, for_print=True)
