@@ -10,17 +10,16 @@ import pytest
 from hexmend import ParameterError, gallery, measure
 from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
 from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
-from hexmend_app.report.histogram import Histogram, Outline
+from hexmend_app.report.histogram import Histogram, Series
 from hexmend_app.report.run_figures import write_convergence, write_distributions
 from hexmend_app.report.worst_hexes import Locked, reason, worst_table
 
 HISTOGRAM = Histogram(
-    [Outline("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Outline("after", "#0072B2", [0, 4, 9])],
+    [Series("before", "#5b6573", [1, 2, 3], filled=True, note="2 inverted"), Series("after", "#0072B2", [0, 4, 9])],
     "bridge",
     "q(H)",
     "hexes",
-    [(0.0, "0"), (1.0, "1")],
-    (0.0, 1.0),
+    [(0.0, "0"), (3.0, "1")],
 )
 CURVE = DrawnCurve("mend", "#0072B2", [0, 1, 2], [3.0, 2.0, 0.5])
 CONVERGENCE = Convergence([DrawnChart("quality", [CURVE])], "bridge", "iteration")
@@ -59,7 +58,7 @@ def test_no_letter_makes_a_name_vanish(tmp_path, drawn):
 
 
 def test_powers_of_ten_need_something_to_be_counted(tmp_path):
-    nothing = Histogram([Outline("a", "#5b6573", [0, 0])], "", "q", "hexes", [(0.0, "0")], (0.0, 1.0), log=True)
+    nothing = Histogram([Series("a", "#5b6573", [0, 0])], "", "q", "hexes", [(0.0, "0")], log=True)
     assert "a" in written(tmp_path / "a.svg", nothing.draw)[0]
 
 

@@ -16,6 +16,7 @@ from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.picture import Page, Scene, Show
+from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
@@ -59,10 +60,9 @@ def test_every_text_is_legible_on_its_backgrounds(dark):
 
 def histogram():
     widget = QualityHistogram()
-    widget.set_initial(FIGURES.q, FIGURES.inverted)
-    widget.set_current(FIGURES.q**2, FIGURES.inverted)
+    start, now, kept = (Distribution.of(FIGURES.q**power, FIGURES.inverted) for power in (1, 2, 3))
+    widget.show_distributions(start, now, [(4, "kept", kept)])
     widget.set_range(Show((0.2, 0.7), "q"))
-    widget.set_snapshots([(4, "kept", FIGURES.q**3, FIGURES.inverted)])
     return widget
 
 

@@ -135,7 +135,7 @@ def test_results_are_shown_next_to_the_mesh_and_named_in_the_histogram(compared)
         title_of("laplacian"),
         title_of("local-sd"),
     ]
-    series = compared.features["histogram"].panel.series()
+    series = compared.features["histogram"].panel.shown.shown
     assert [one.name for one in series][2:] == [title_of("getme"), title_of("laplacian"), title_of("local-sd")]
     initial = model(compared).index(0, VIEW)
     assert not model(compared).flags(initial) & Qt.ItemFlag.ItemIsEnabled  # four views are open

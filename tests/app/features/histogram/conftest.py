@@ -8,8 +8,9 @@ from PySide6.QtCore import QPointF
 from PySide6.QtTest import QTest
 
 from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.report.distribution import Distribution
 from tests.app.driving import LEFT, heard_from, move, turn
-from tests.app.features.histogram.mouse import point_at
+from tests.app.features.histogram.mouse import point_at, valid
 
 
 @pytest.fixture
@@ -22,8 +23,7 @@ def data():
 @pytest.fixture
 def histogram(shown, data):
     widget = shown(QualityHistogram(), height=360)
-    widget.set_initial(*data)
-    widget.set_current(data[0] ** 0.5, np.zeros(2000, bool))
+    widget.show_distributions(Distribution.of(*data), valid(data[0] ** 0.5))
     turn()
     return widget
 
@@ -37,7 +37,7 @@ def announced(histogram):
 
 @pytest.fixture
 def drag(histogram, announced, qtbot):
-    """Return a function that drags the mouse from the first q through the others to the last."""
+    """Return a function that drags the mouse from the first position through the others to the last."""
 
     def drag_through(*positions):
         viewport = histogram.plot.plot.viewport()
@@ -59,6 +59,5 @@ def condition(histogram):
     values, inverted = 1 + rng.gamma(2, 1, 2000), rng.random(2000) < 0.1
     values[inverted] = np.inf
     histogram.set_metric("condition")
-    histogram.set_initial(values, inverted)
-    histogram.set_current(values, inverted)
+    histogram.show_distributions(None, Distribution.of(values, inverted))
     return values, inverted

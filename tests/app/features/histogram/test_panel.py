@@ -4,20 +4,17 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox
+from PySide6.QtWidgets import QApplication, QComboBox, QInputDialog
 
 from hexmend.quality import METRICS
-from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import distribute
-from hexmend_app.features.histogram.distributions import Distributions
 from hexmend_app.picture.visibility import Show
+from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.colour.value_range import within
 from tests.app.driving import (
     LEFT,
     brought,
     drag,
     key,
-    move,
     named,
     open_and_wait,
     press,
@@ -26,219 +23,162 @@ from tests.app.driving import (
     type_text,
     walk_to,
 )
-from tests.app.features.histogram.mouse import ends, point_at
+from tests.app.features.histogram.mouse import ends, point_at, valid
 
 
 def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
     q, inverted = data
-    start = np.count_nonzero((q >= 0.5) & (q < 0.52) & ~inverted)
-    now = np.count_nonzero((q**0.5 >= 0.5) & (q**0.5 < 0.52))
+    axis = histogram.axis
+    low, high = axis.edges[10:12]
+    start = np.count_nonzero((q >= low) & (q < high) & ~inverted)
+    now = np.count_nonzero((q**0.5 >= low) & (q**0.5 < high))
     assert start != now
-    text = histogram.describe_at(0.511)
-    assert "0.50 – 0.52" in text
+    text = histogram.describe_at(10.5)
+    assert f"{axis.text(low)} – {axis.text(high)}" in text
     assert f"at the start: {start} hex" in text
     assert f"now: {now} hex" in text
-    bar = histogram.describe_at(sum(Axis("q").inverted) / 2)
-    assert bar == f"inverted\nat the start: {inverted.sum()} hexes\nnow: 0 hexes"
-    assert histogram.describe_at(-0.05) == histogram.describe_at(1.01) == ""
+    column = sum(histogram.plot.histogram.column) / 2
+    assert histogram.describe_at(column) == f"inverted\nnow: 0 hexes\nat the start: {inverted.sum()} hexes"
+    assert histogram.describe_at(-0.5) == histogram.describe_at(50.5) == ""
 
 
-def test_the_number_of_bins_is_set_in_the_menu(histogram, data):
+def test_the_number_of_bins_is_set_in_the_menu(histogram):
     bins = histogram.head.bins
     histogram.head.more.menu().popup(QPoint(0, 0))
     bins.setFocus()
     QTest.keyClick(bins, Qt.Key.Key_Up)
-    assert len(histogram.series()[0].distribution.counts) == 60
+    assert histogram.axis.bins == len(histogram.plot.histogram.series[0].counts) == 60
     histogram.head.more.menu().close()
-    bins.setValue(200)
-    assert (
-        histogram.series()[0].distribution.counts.tolist() == np.histogram(data[0][~data[1]], 200, (0, 1))[0].tolist()
-    )
-    assert "q(H) 0.510 – 0.515" in histogram.describe_at(0.511)
 
 
-def test_snapshots_are_drawn_renamed_and_removed(histogram, data):
+def test_kept_distributions_are_drawn_renamed_and_removed(histogram, data, monkeypatch):
     signals = []
     histogram.legend.renamed.connect(lambda *signal: signals.append(signal))
     histogram.legend.removed.connect(lambda slot: signals.append(slot))
-    half = data[0] / 2, np.zeros(2000, bool)
-    snapshots = [(0, "laplacian 5", *half), (3, "now", *data)]
-    histogram.set_snapshots(snapshots)
+    half, later = valid(data[0] / 2), Distribution.of(*data)
+    histogram.show_distributions(later, half, [(0, "laplacian 5", half), (3, "now", later)])
     turn()
-    assert [one.name for one in histogram.series()] == ["at the start", "now", "laplacian 5", "now"]
-    assert len({one.colour for one in histogram.series()}) == 4
-    assert len(histogram.plot.outlines) == 4
-    assert f"laplacian 5: {np.count_nonzero((half[0] >= 0.24) & (half[0] < 0.26))} " in histogram.describe_at(0.25)
-    name = histogram.legend.entries[0].name
-    assert name.text() == "laplacian 5"
-    QTest.mouseClick(name, LEFT)
-    type_text(name, "Laplace", enter=True)
-    QTest.mouseClick(histogram.legend.entries[3].cross, LEFT)
+    series = histogram.plot.histogram.series
+    assert [one.name for one in series] == ["now", "at the start", "laplacian 5", "now"]
+    assert len({one.colour for one in series}) == 4
+    assert [one.filled for one in series] == [True, False, False, False]
+    entry = histogram.legend.kept[0]
+    assert entry.text() == "laplacian 5"
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: (" Laplace ", True))
+    entry.menu().actions()[0].trigger()
+    histogram.legend.kept[3].menu().actions()[1].trigger()
     assert signals == [(0, "Laplace"), 3]
-    histogram.set_snapshots(snapshots[:1])
-    turn()
-    assert list(histogram.legend.entries) == [0]
-    assert len(histogram.plot.outlines) == 3
+    histogram.show_distributions(later, half, [(0, "Laplace", half)])
+    assert list(histogram.legend.kept) == [0]
+    assert histogram.legend.y() > histogram.plot.geometry().bottom()
 
 
 def test_the_line_below_counts_hexes_that_are_invalid_inside(histogram, data):
     assert histogram.summary.text() == "2,000 hexes, 0 inverted"
-    histogram.set_current(data[0], np.zeros(2000, bool), 2)
+    histogram.show_distributions(None, valid(data[0]), inside=2)
     assert histogram.summary.text() == "2,000 hexes, 0 inverted · 2 invalid inside"
 
 
-# Heights of the bars of the histogram, on both scales.
-
-
-@pytest.mark.parametrize("scale", ["linear", "log"])
-def test_the_largest_count_is_visible_on_both_scales(histogram, scale):
-    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+@pytest.mark.parametrize("log", [False, True])
+def test_the_largest_count_is_visible_on_both_scales(histogram, log):
+    histogram.head.log.setChecked(log)
     for count in (10, 900, 50):
-        q = np.concatenate([np.full(count, 0.5), [0.1]])
-        histogram.set_initial(q, np.zeros(len(q), bool))
-        histogram.set_current(q, np.zeros(len(q), bool))
+        histogram.show_distributions(None, valid(np.concatenate([np.full(count, 0.5), [0.1]])))
         low, high = histogram.plot.plot.viewRange()[1]
-        height = float(histogram.plot.heights.of(histogram.series()[0].distribution, count))
-        assert low < height < high
-        assert (height - low) / (high - low) > 0.35
+        at = int(np.argmax(histogram.plot.histogram.series[0].counts))
+        height = histogram.plot.height_at(at + 0.5)
+        assert 0.5 < (height - low) / (high - low) < 1
 
 
 def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
-    histogram.set_initial(np.zeros(50), np.ones(50, bool))
-    histogram.set_current(np.zeros(50), np.ones(50, bool))
-    assert histogram.plot.heights.top > 0
-    assert histogram.plot.numbers["now"][0].toPlainText() == "50"
+    histogram.show_distributions(None, Distribution.of(np.zeros(50), np.ones(50, bool)))
+    assert histogram.plot.number.toPlainText() == "50 inverted"
+    histogram.show_distributions(None, valid(np.full(50, 0.5)))
+    assert not histogram.plot.number.isVisible()
 
 
-@pytest.mark.parametrize("scale", ["linear", "log"])
-def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(histogram, data, scale):
+@pytest.mark.parametrize("log", [False, True])
+def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(histogram, data, log):
     q, inverted = data
-    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    histogram.head.log.setChecked(log)
     histogram.head.cumulative.trigger()
-    histogram.set_current(*data)
-    share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < 0.52))) / 2000
-    text = histogram.describe_at(0.511)
-    assert text.startswith("inverted, or q(H) up to 0.52\n")
+    histogram.show_distributions(None, Distribution.of(*data))
+    high = histogram.axis.edges[21]
+    share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < high))) / 2000
+    text = histogram.describe_at(20.5)
+    assert text.startswith(f"inverted, or q(H) up to {histogram.axis.text(high)}\n")
     assert f"now: {share:.4g} %, " in text
-    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(0.99)
+    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(49.5)
     histogram.head.cumulative.trigger()
-    assert not histogram.describe_at(0.511).startswith("inverted, or")
+    assert not histogram.describe_at(20.5).startswith("inverted, or")
 
 
-# Distributions of the histogram, counted again for another axis or number of bins.
-
-
-Q = np.random.default_rng(3).beta(6, 2, 300)
-LONG = 1 + np.random.default_rng(4).gamma(2, 3, 300)
-VALID = np.zeros(300, bool)
-
-
-def counts(counted):
-    return counted.below, counted.counts.tolist(), counted.above, counted.inverted
-
-
-def test_series_are_in_the_order_of_the_legend():
-    distributions = Distributions()
-    assert distributions.series() == []
-    distributions.set_snapshots([(0, "before", Q, VALID), (2, "later", Q**2, VALID)])
-    distributions.set_current(Q, VALID)
-    distributions.set_initial(Q, VALID)
-    assert [one.name for one in distributions.series()] == ["at the start", "now", "before", "later"]
-    assert [one.current for one in distributions.series()] == [False, True, False, False]
-
-
-@pytest.mark.parametrize("change", ["the axis", "the bins"])
-def test_all_distributions_are_counted_again(change):
-    distributions = Distributions()
-    distributions.reset("aspect-ratio")
-    distributions.set_current(LONG, VALID)
-    distributions.set_snapshots([(1, "kept", LONG / 2, VALID)])
-    before, bins = distributions.axis, 50
-    if change == "the axis":
-        distributions.set_initial(LONG, VALID)
-        assert distributions.axis == Axis.fitted("aspect-ratio", LONG, VALID) != before
-    else:
-        bins = 20
-        distributions.set_bins(bins)
-        assert distributions.axis == before
-    now, snapshot = (series.distribution for series in distributions.series()[-2:])
-    assert counts(now) == counts(distribute(LONG, VALID, distributions.axis, bins))
-    assert counts(snapshot) == counts(distribute(LONG / 2, VALID, distributions.axis, bins))
-
-
-def test_another_metric_removes_all_distributions():
-    distributions = Distributions()
-    distributions.set_initial(Q, VALID)
-    distributions.set_current(Q, VALID)
-    distributions.set_snapshots([(0, "one", Q, VALID)])
-    distributions.reset("scaled-jacobian")
-    assert distributions.axis.metric == "scaled-jacobian"
-    assert distributions.series() == distributions.snapshots == []
+def test_another_metric_removes_all_distributions_and_the_range(histogram):
+    histogram.set_range(Show((0.3, 0.5), "q"))
+    histogram.set_metric("scaled-jacobian")
+    assert histogram.axis.metric == "scaled-jacobian"
+    assert not histogram.shown.shown
+    assert histogram.range() is None
 
 
 # Ranges of values that are dragged and typed in the histogram.
 
 
 def test_dragging_over_the_plot_brushes_the_range_under_it(histogram, announced, drag, data):
-    drag(0.3, 0.45)
+    drag(0.5, 0.65)
     assert announced[-1] == histogram.range()
     low, high = ends(announced[-1])
-    assert (low, high) == pytest.approx((0.3, 0.45), abs=0.011)
+    assert (low, high) == pytest.approx((0.5, 0.65), abs=0.011)
     now = data[0] ** 0.5
     inside = np.count_nonzero((now >= low) & (now <= high))
-    assert histogram.summary.text() == f"{inside} of 2,000 hexes from {low:.2f} to {high:.2f}"
+    assert histogram.summary.text() == f"{inside} of 2,000 hexes shown"
 
 
-def test_dragging_over_the_bar_of_inverted_hexes_includes_them(histogram, announced, drag, data):
-    histogram.set_current(*data)
-    drag(0.5, sum(histogram.axis.inverted) / 2)
+def test_dragging_over_the_column_of_inverted_hexes_includes_them(histogram, announced, drag, data):
+    now = Distribution.of(*data)
+    histogram.show_distributions(None, now)
+    column = histogram.plot.histogram.column
+    drag(0.5, sum(column) / 2)
     assert announced[-1].inverted
-    now = histogram.series()[1].distribution
     low = np.count_nonzero((data[0] <= announced[-1].high) & ~data[1])
-    assert histogram.summary.text().startswith(f"{low + now.inverted} of 2,000 hexes up to 0.5")
-    assert histogram.summary.text().endswith(f", and the {now.inverted} inverted")
+    assert histogram.summary.text() == f"{low + now.inverted:,} of 2,000 hexes shown"
     histogram.set_range(None)
-    drag(histogram.axis.inverted[0] - 0.01, histogram.axis.inverted[1])
+    drag(*column)
     assert announced[-1] == Show((-np.inf, -np.inf), "q", inverted=True)
-    assert histogram.summary.text() == f"{now.inverted} of 2,000 hexes, inverted only"
-    drag(0.001, 1.0)
-    assert announced[-1] == Show((0.0, 1.0), "q")
-    assert histogram.summary.text() == f"{2000 - now.inverted:,} of 2,000 hexes, inverted hidden"
+    assert histogram.summary.text() == f"{now.inverted} of 2,000 hexes shown"
 
 
-def test_a_click_on_the_bar_of_inverted_hexes_requests_them(histogram, announced, data):
+def test_a_click_on_the_column_of_inverted_hexes_requests_them(histogram, announced, data):
     requests = []
     histogram.inverted_requested.connect(lambda: requests.append(True))
-    bar = point_at(histogram, sum(histogram.axis.inverted) / 2)
-    QTest.mouseClick(histogram.plot.plot.viewport(), LEFT, pos=bar)
-    assert requests == []  # the bar is empty
-    histogram.set_current(*data)
-    QTest.mouseClick(histogram.plot.plot.viewport(), LEFT, pos=bar)
-    assert requests == [True]
-    QTest.mouseClick(histogram.plot.plot.viewport(), LEFT, pos=point_at(histogram, 0.5))
+    column = point_at(histogram, sum(histogram.plot.histogram.column) / 2)
+    QTest.mouseClick(histogram.plot.plot.viewport(), LEFT, pos=column)
+    assert requests == []  # none of now
+    histogram.show_distributions(None, Distribution.of(*data))
+    QTest.mouseClick(histogram.plot.plot.viewport(), LEFT, pos=column)
     assert (requests, announced) == ([True], [])
 
 
 def test_a_drag_moves_an_end_or_the_whole_range(histogram, announced, drag):
-    histogram.set_range(Show((0.3, 0.5), "q"))
-    drag(0.5, 0.7)
-    assert ends(announced[-1]) == pytest.approx((0.3, 0.7), abs=0.011)
-    drag(0.45, 0.55)
-    assert ends(announced[-1]) == pytest.approx((0.4, 0.8), abs=0.021)
-    drag(0.6, 1.0)
-    assert ends(announced[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the limit
+    histogram.set_range(Show((0.4, 0.6), "q"))
+    drag(0.6, 0.7)
+    assert ends(announced[-1]) == pytest.approx((0.4, 0.7), abs=0.011)
+    drag(0.5, 0.6)
+    assert ends(announced[-1]) == pytest.approx((0.5, 0.8), abs=0.021)
+    drag(0.65, 1.0)
+    assert ends(announced[-1])[1] == 1  # the end of q
 
 
 def test_a_range_of_an_unbounded_metric_extends_to_infinity(histogram, announced, drag, condition):
     values, inverted = condition
     axis = histogram.axis
-    drag(0.5, sum(axis.above) / 2)
-    low = axis.low + 0.5 * (axis.high - axis.low)
+    middle = axis.low + 0.5 * (axis.high - axis.low)
+    drag(middle, axis.high + 0.01 * middle)
     assert announced[-1] == histogram.range()
     assert (announced[-1].metric, announced[-1].high) == ("condition", np.inf)
-    assert announced[-1].low == pytest.approx(low, abs=0.03 * low)
+    assert announced[-1].low == pytest.approx(middle, abs=0.03 * middle)
     inside = np.count_nonzero((values >= announced[-1].low) & ~inverted)
-    assert histogram.summary.text() == f"{inside:,} of 2,000 hexes from {axis.end_text(announced[-1].low)}"
+    assert histogram.summary.text() == f"{inside:,} of 2,000 hexes shown"
     assert histogram.range_row.high.text() == "∞"
 
 
@@ -248,53 +188,28 @@ def test_numbers_are_typed_in_any_notation(histogram, announced, condition, qtbo
         box.setFocus()
         type_text(box, text, enter=True)
         qtbot.waitUntil(lambda number=number: len(announced) == number)
-    expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
-    assert announced == [Show(ends, "condition") for ends in expected]
-    QTest.keyClick(histogram.range_row.high, Qt.Key.Key_Down)  # from infinity back to the axis
-    qtbot.waitUntil(lambda: announced[-1].high == histogram.axis.high)
+    assert announced == [Show(ends, "condition") for ends in [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]]
     box = histogram.range_row.low
     type_text(box, "1e-", enter=True)
-    assert histogram.range().low == 2.5  # incomplete: dropped
+    assert (histogram.range().low, box.text()) == (2.5, "2.5")  # incomplete: dropped
+    QTest.mouseClick(histogram.range_row.all, LEFT)
+    assert announced[-1] is None
 
 
 def test_a_click_on_a_bar_shows_only_its_hexes(histogram, announced, data, qtbot):
-    histogram.set_current(*data)
     values, inverted = data
-    distribution = next(one.distribution for one in histogram.series() if one.current)
-    bar, view = distribution.cells.span(1 + int(np.argmax(distribution.counts))), histogram.plot.view
-    viewport = histogram.plot.plot.viewport()
-    above = view.mapViewToScene(QPointF(sum(bar) / 2, 1.02 * histogram.plot.heights.top)).toPoint()
-    QTest.mouseClick(viewport, LEFT, pos=above)
+    histogram.show_distributions(None, Distribution.of(*data))
+    bin, view = int(np.argmax(histogram.plot.histogram.series[0].counts)), histogram.plot.view
+    viewport, top = histogram.plot.plot.viewport(), histogram.plot.height_at(bin + 0.5)
+    QTest.mouseClick(viewport, LEFT, pos=view.mapViewToScene(QPointF(bin + 0.5, 1.05 * top)).toPoint())
     assert announced == []
-    inside = view.mapViewToScene(QPointF(sum(bar) / 2, 1.0)).toPoint()
-    QTest.mouseClick(viewport, LEFT, pos=inside)
+    QTest.mouseClick(viewport, LEFT, pos=view.mapViewToScene(QPointF(bin + 0.5, 0.5 * top)).toPoint())
     qtbot.waitUntil(lambda: len(announced) == 1)
-    shown = within(values, inverted, announced[0])
-    low, high = (histogram.axis.low + end * (histogram.axis.high - histogram.axis.low) for end in bar)
-    assert shown.sum() > 0
-    assert np.array_equal(shown, (values >= low) & (values < high) & ~inverted)
+    low, high = histogram.axis.edges[bin : bin + 2]
+    assert np.array_equal(within(values, inverted, announced[0]), (values >= low) & (values < high) & ~inverted)
 
 
-def test_an_end_of_the_range_of_colours_is_dragged(histogram, announced, qtbot):
-    ranges = []
-    histogram.colours_dragged.connect(lambda low, high: ranges.append((low, high)))
-    histogram.set_colour_range((0.2, 2.0))
-    assert histogram.plot.colour_range.handles() == (0.2, 1.0)  # at the end of the axis
-    viewport, start = histogram.plot.plot.viewport(), point_at(histogram, 0.2)
-    move(viewport, QPointF(start), Qt.MouseButton.NoButton)
-    QTest.mousePress(viewport, LEFT, pos=start)
-    for x in (0.25, 0.3, 0.4):
-        move(viewport, QPointF(point_at(histogram, x)), LEFT)
-    QTest.mouseRelease(viewport, LEFT, pos=point_at(histogram, 0.4))
-    low, high = ranges[-1]
-    assert low == pytest.approx(0.4, abs=0.02)
-    assert high == 2.0  # stays beyond the axis
-    assert announced == []  # the hexes shown stay the same
-    histogram.set_colour_range(None)
-    assert not histogram.plot.colour_range.shown
-
-
-# Histogram in the window: metric of the colours, brushed ranges and snapshots.
+# Histogram in the window: metric of the colours, brushed ranges and kept distributions.
 
 
 @pytest.fixture
@@ -304,12 +219,14 @@ def front_histogram(window, qtbot):
 
 
 def brush(window, qtbot, low, high):
-    """Drag over the histogram, wait until the view has its range, and return the range."""
-    front_histogram, view = window.features["histogram"].panel, window.session.view
+    """Drag over a share of the histogram, wait until the view has its range, and return the range."""
+    panel, view = window.features["histogram"].panel, window.session.view
     before = view.look.show.by_quality
     QApplication.processEvents()  # lays out the axis of another metric
-    drag(front_histogram.plot.plot.viewport(), point_at(front_histogram, low), point_at(front_histogram, high))
-    qtbot.waitUntil(lambda: front_histogram.range() == view.look.show.by_quality != before)
+    axis = panel.axis
+    points = [point_at(panel, axis.low + share * (axis.high - axis.low)) for share in (low, high)]
+    drag(panel.plot.plot.viewport(), *points)
+    qtbot.waitUntil(lambda: panel.range() == view.look.show.by_quality != before)
     window.refresh()
     return view.look.show.by_quality
 
@@ -344,28 +261,28 @@ def test_snapshots_are_named_after_the_iteration_and_shown_for_every_metric(wind
     for _ in range(2):
         smooth(qtbot, window.session, "local-sd", 1)
         window.refresh()
-        front_histogram.head.keep.trigger()
+        press(front_histogram.head.keep)
         states.append(window.session.document.now)
     window.refresh()
     walk_to(window, front_histogram.head.metric_box, "condition")
-    drawn = {one.name: one.distribution for one in front_histogram.series()}
+    drawn = {one.name: one.distribution for one in front_histogram.shown.shown}
     names = ["Local steepest descent 1", "Local steepest descent (2) 1"]
     assert [one.name for one in window.session.snapshots.all] == names
     for name, state in zip(names, states, strict=True):
         values = METRICS["condition"].of(state.mesh.points, state.mesh.hexes, state.figures)
-        np.testing.assert_array_equal(drawn[name].values, values)
-    press(front_histogram.legend.entries[1].cross)
+        np.testing.assert_array_equal(drawn[name].values, Distribution.of(values, state.figures.inverted).values)
+    front_histogram.legend.kept[1].menu().actions()[1].trigger()
     assert names[1] not in [one.name for one in window.session.snapshots.all]
     open_and_wait(qtbot, window, mesh_file)
     window.refresh()
-    assert [one.name for one in front_histogram.series()] == ["at the start", "now"]
+    assert [one.name for one in front_histogram.shown.shown] == ["now", "at the start"]
 
 
-def test_a_click_on_the_bar_of_inverted_hexes_shows_only_them(window, front_histogram):
+def test_a_click_on_the_column_of_inverted_hexes_shows_only_them(window, front_histogram):
     QTest.mouseClick(
         front_histogram.plot.plot.viewport(),
         LEFT,
-        pos=point_at(front_histogram, sum(front_histogram.axis.inverted) / 2),
+        pos=point_at(front_histogram, sum(front_histogram.plot.histogram.column) / 2),
     )
     window.refresh()
     assert window.canvas.viewport.shown == window.session.document.now.figures.n_inverted > 0

@@ -8,12 +8,12 @@ from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
 from hexmend_app.report.charts import ChartStyle
-from hexmend_app.report.histogram import Histogram, Outline
+from hexmend_app.report.histogram import Histogram, Series
 from hexmend_app.state.settings.settings import FOLDER
 from hexmend_app.widgets.dialogs import questions
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, TableDialog
 
-HISTOGRAM = Histogram([Outline("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")], (0.0, 1.0))
+HISTOGRAM = Histogram([Series("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")])
 WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", ChartStyle())
 
 
