@@ -1,11 +1,13 @@
-"""Charts of the convergence of runs, one below the other with a common axis of iterations or seconds."""
+"""Description of line charts, and their drawing for print: one below the other with a common axis."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from hexmend_app.report.charts import ChartStyle, add_legend
 
@@ -20,20 +22,20 @@ _HEAD, _CHART = 0.16, 0.227
 DASHES = ("-", "--", ":")
 
 
-@dataclass(frozen=True)
-class DrawnCurve:
+@dataclass(frozen=True, eq=False)
+class Line:
     """One quantity of one run.
 
     Parameters
     ----------
     label, colour : str
     x, y : sequence of float
-        NaN in y is a gap.
+        NaN is a gap.
     dash : str
         One of `DASHES`.
     strong : bool
     part : str
-        Text after the label, if a run has several curves.
+        Text after the label, if a run has several lines.
     """
 
     label: str
@@ -45,40 +47,46 @@ class DrawnCurve:
     part: str = ""
 
 
-@dataclass(frozen=True)
-class DrawnChart:
-    """Curves with a common axis.
+@dataclass(frozen=True, eq=False)
+class LineChart:
+    """Lines with a common axis.
 
     Parameters
     ----------
     title : str
-    curves : sequence of DrawnCurve
+    lines : sequence of Line
     log : bool
-        Logarithmic axis, with zero below the powers of ten, unless all values lie within one power.
+        Logarithmic axis, with zero below the powers of ten.
     whole : bool
         The values are counts.
     """
 
     title: str
-    curves: Sequence[DrawnCurve]
+    lines: Sequence[Line]
     log: bool = False
     whole: bool = False
 
+    @property
+    def values(self) -> np.ndarray:
+        """All finite values, (k,) float64."""
+        values = np.concatenate([np.asarray(line.y, dtype=float) for line in self.lines] or [np.empty(0)])
+        return values[np.isfinite(values)]
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Convergence:
     """Charts one below the other.
 
     Parameters
     ----------
-    charts : sequence of DrawnChart
-        Charts without curves are left out, unless all are.
+    charts : sequence of LineChart
+        Charts without lines are left out, unless all are.
     title, xlabel : str
     whole : bool
         The values of the axis are counts.
     """
 
-    charts: Sequence[DrawnChart]
+    charts: Sequence[LineChart]
     title: str
     xlabel: str
     whole: bool = True
@@ -86,7 +94,7 @@ class Convergence:
     @property
     def names(self) -> list[str]:
         """Labels of the runs, each once."""
-        return list(dict.fromkeys(curve.label for chart in self.charts for curve in chart.curves))
+        return list(dict.fromkeys(line.label for chart in self.charts for line in chart.lines))
 
     def draw(self, style: ChartStyle) -> Figure:
         """Draw the figure.
@@ -96,7 +104,7 @@ class Convergence:
         HexmendError
             If matplotlib is not installed.
         """
-        charts = [chart for chart in self.charts if chart.curves] or self.charts[:1]
+        charts = [chart for chart in self.charts if chart.lines] or self.charts[:1]
         count = max(1, len(charts))
         figure = style.figure(_HEAD + _CHART * count)
         all_axes = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
@@ -108,16 +116,17 @@ class Convergence:
         return figure
 
 
-def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
+def _draw(axes: Axes, chart: LineChart, style: ChartStyle) -> None:
+    """Draw a chart; it has a logarithmic axis only if its values span a power of ten."""
     named = []
-    for curve in chart.curves:
-        line: dict[str, Any] = {"linestyle": curve.dash, "linewidth": 1.8 if curve.strong else 1.0}
-        name = style.name(curve.label) + (f" {curve.part}" if curve.part else "")
-        named.append((axes.plot(curve.x, curve.y, color=curve.colour, **line)[0], name))
-    known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
-    least = min((y for y in known if y > 0), default=math.inf)
-    if chart.log and max(known, default=0) >= 10 * least:
-        if min(known) > 0:
+    for line in chart.lines:
+        name = style.name(line.label) + (f" {line.part}" if line.part else "")
+        width = 1.8 if line.strong else 1.0
+        named.append((axes.plot(line.x, line.y, color=line.colour, linestyle=line.dash, linewidth=width)[0], name))
+    values = chart.values
+    least = float(values[values > 0].min(initial=math.inf))
+    if chart.log and values.max(initial=0) >= 10 * least:
+        if values.min() > 0:
             axes.set_yscale("log")
         else:
             axes.set_yscale("symlog", linthresh=10 ** math.floor(math.log10(least)))

@@ -9,7 +9,7 @@ from typing import Any
 
 from hexmend.iteration.figures import HISTORY, objective_changes
 from hexmend_app.report.charts import COLOURS, ChartStyle, write_chart
-from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend_app.report.convergence import Convergence, Line, LineChart
 from hexmend_app.report.distribution import Axis
 from hexmend_app.report.histogram import Histogram, Series
 
@@ -71,7 +71,7 @@ def write_convergence(
         For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
     charts = [
-        DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key in _COUNTS)
+        LineChart(HISTORY[key].label, _curves(histories, key), key == "objective", key in _COUNTS)
         for key in _DRAWN
         if _has(histories, key)
     ]
@@ -83,7 +83,7 @@ def _label(name: str) -> str:
     return name if len(name) <= _MAX_LABEL else f"{name[: _MAX_LABEL // 2]}…{name[-(_MAX_LABEL // 2) :]}"
 
 
-def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
+def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[Line]:
     curves = []
     for k, (name, rows) in enumerate(histories.items()):
         x = [float(row["iteration"]) for row in rows]
@@ -91,7 +91,7 @@ def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> l
         for at in reversed(objective_changes(rows) if key == "objective" else ()):
             x.insert(at, math.nan)
             y.insert(at, math.nan)
-        curves.append(DrawnCurve(_label(name), COLOURS[k % len(COLOURS)], x, y, strong=True))
+        curves.append(Line(_label(name), COLOURS[k % len(COLOURS)], x, y, strong=True))
     return curves
 
 

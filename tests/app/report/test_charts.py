@@ -9,7 +9,7 @@ import pytest
 
 from hexmend import ParameterError, gallery, measure
 from hexmend_app.report.charts import ChartStyle, chart_png, write_chart
-from hexmend_app.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend_app.report.convergence import Convergence, Line, LineChart
 from hexmend_app.report.histogram import Histogram, Series
 from hexmend_app.report.run_figures import write_convergence, write_distributions
 from hexmend_app.report.worst_hexes import Locked, reason, worst_table
@@ -21,8 +21,8 @@ HISTOGRAM = Histogram(
     "hexes",
     [(0.0, "0"), (3.0, "1")],
 )
-CURVE = DrawnCurve("mend", "#0072B2", [0, 1, 2], [3.0, 2.0, 0.5])
-CONVERGENCE = Convergence([DrawnChart("quality", [CURVE])], "bridge", "iteration")
+CURVE = Line("mend", "#0072B2", [0, 1, 2], [3.0, 2.0, 0.5])
+CONVERGENCE = Convergence([LineChart("quality", [CURVE])], "bridge", "iteration")
 
 
 def written(path, draw, **style):
@@ -63,7 +63,7 @@ def test_powers_of_ten_need_something_to_be_counted(tmp_path):
 
 
 def test_a_picture_of_too_many_pixels_is_refused_once_its_height_is_known(tmp_path):
-    many = Convergence([DrawnChart(str(k), [CURVE]) for k in range(8)], "bridge", "iteration")
+    many = Convergence([LineChart(str(k), [CURVE]) for k in range(8)], "bridge", "iteration")
     style = ChartStyle(width=169.0, resolution=1200)
     write_chart(tmp_path / "a.svg", CONVERGENCE.draw, style)
     with pytest.raises(ParameterError, match="too many pixels"):
@@ -80,7 +80,7 @@ def test_letters_have_their_size(tmp_path):
 
 
 def test_charts_without_curves_are_left_out_unless_there_are_no_others(tmp_path):
-    empty = DrawnChart("objective", [])
+    empty = LineChart("objective", [])
     said, _ = written(tmp_path / "a.svg", Convergence([empty, *CONVERGENCE.charts], "bridge", "iteration").draw)
     assert "quality" in said
     assert "objective" not in said
@@ -92,8 +92,8 @@ def test_charts_without_curves_are_left_out_unless_there_are_no_others(tmp_path)
     [([45.0, 44.0], "linear"), ([45.0, 0.0], "linear"), ([45.0, 4.0], "log"), ([45.0, 4.0, 0.0], "symlog")],
 )
 def test_an_axis_goes_by_powers_of_ten_where_there_are_some(y, scale):
-    curve = DrawnCurve("mend", "#0072B2", list(range(len(y))), y)
-    axes = Convergence([DrawnChart("inverted", [curve], True, True)], "a", "iteration").draw(ChartStyle()).axes[0]
+    curve = Line("mend", "#0072B2", list(range(len(y))), y)
+    axes = Convergence([LineChart("inverted", [curve], True, True)], "a", "iteration").draw(ChartStyle()).axes[0]
     assert axes.get_yscale() == scale
 
 

@@ -12,68 +12,52 @@ from hexmend_app.codec.checks import check_known
 STEP_SECONDS = Quantity(
     "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", format_significant, -1
 )
-#: Quantities of the chart of quality.
-_QUALITIES = ("q_min", "q_mean", "scaled_jacobian_min")
-#: Quantities of the chart of invalid hexes.
-_VALIDITIES = ("inverted", "invalid")
 
 _QUANTITIES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
 
 
 @dataclass(frozen=True)
-class PlottedQuantity:
-    """Quantity of each iteration, and how to plot it.
+class Chart:
+    """Chart of one or more quantities with a common axis.
 
     Parameters
     ----------
-    quantity : Quantity
+    key, title : str
+    quantities : tuple of Quantity
         Of `HISTORY` or `DIAGNOSTICS`, or `STEP_SECONDS`.
     log : bool
-        A logarithmic axis suits it.
+        A logarithmic axis suits them.
     whole : bool
-        Its values are integers.
+        Their values are integers.
     """
 
-    quantity: Quantity
+    key: str
+    title: str
+    quantities: tuple[Quantity, ...]
     log: bool = False
     whole: bool = False
 
     @property
-    def key(self) -> str:
-        """Key in records."""
-        return self.quantity.key
-
-    @property
-    def title(self) -> str:
-        """Label in texts."""
-        return self.quantity.label
-
-
-@dataclass(frozen=True)
-class Chart:
-    """Chart of one or more quantities with a common axis."""
-
-    key: str
-    title: str
-    quantities: tuple[PlottedQuantity, ...]
-
-    @property
     def help(self) -> str:
         """Help texts of the quantities."""
-        return " ".join(one.quantity.help for one in self.quantities)
+        return " ".join(one.help for one in self.quantities)
 
 
-def _single(key: str, title: str = "", **options: bool) -> Chart:
-    return Chart(key, title or _QUANTITIES[key].label, (PlottedQuantity(_QUANTITIES[key], **options),))
+def _single(key: str, log: bool = False, whole: bool = False) -> Chart:
+    return Chart(key, _QUANTITIES[key].label, (_QUANTITIES[key],), log, whole)
+
+
+def _several(key: str, title: str, keys: tuple[str, ...], log: bool = False, whole: bool = False) -> Chart:
+    return Chart(key, title, tuple(_QUANTITIES[one] for one in keys), log, whole)
 
 
 #: Charts by key, in menu order.
 CHARTS: dict[str, Chart] = {
     chart.key: chart
     for chart in (
-        _single("objective", "objective", log=True),
-        Chart("quality", "quality", tuple(PlottedQuantity(_QUANTITIES[key]) for key in _QUALITIES)),
-        Chart("inverted", "invalid hexes", tuple(PlottedQuantity(_QUANTITIES[key], True, True) for key in _VALIDITIES)),
+        _single("objective", log=True),
+        _several("quality", "quality", ("q_min", "q_mean", "scaled_jacobian_min")),
+        _several("inverted", "invalid hexes", ("inverted", "invalid"), log=True, whole=True),
         _single("largest_move", log=True),
         _single("gradient_norm", log=True),
         _single("step_length", log=True),

@@ -11,23 +11,25 @@ from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.charts import Chart, PlottedQuantity
-from hexmend_app.features.convergence.curves import Curve, colour_of
-from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
+from hexmend_app.features.convergence.charts import Chart
+from hexmend_app.features.convergence.curves import Curve, described
+from hexmend_app.features.convergence.point_texts import reason_if_blank
+from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.palette import TEXT
+from hexmend_app.theme.palette import MUTED, TEXT
 from hexmend_app.theme.spacing import fill, on_grid
-from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
+from hexmend_app.theme.style import note, on_theme_change, set_help, smaller, tint
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.plots import calm_plot, log_ticks
 
-_STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
+_STYLES = dict(zip(DASHES, (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine), strict=True))
 _DASHES = ("—", "- -", "···")
 
 #: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
 _PICK_DISTANCE = 12.0
 
-_MIN_HEIGHT = 46
+_MIN_HEIGHT = 80
 
 #: Largest number of points that get markers, without which a run of one step is invisible.
 _MAX_MARKERS = 40
@@ -71,8 +73,8 @@ class ConvergencePlot(QWidget):
     ----------
     marker : pg.InfiniteLine
         At the iteration shown in the view.
-    lines : dict of (int, str) to pg.PlotDataItem
-        By slot of the run and key of the quantity.
+    lines : list of pg.PlotDataItem
+        Those of the runs that are drawn.
     zero : float or None
         Position of zero on a logarithmic axis; None if no value is zero.
 
@@ -97,12 +99,18 @@ class ConvergencePlot(QWidget):
         self.view = _PickView()
         self.plot = calm_plot(self.view)
         self.plot.setMinimumHeight(_MIN_HEIGHT)
+        self.plot.getAxis("left").setWidth(self.fontMetrics().horizontalAdvance("000,000"))
+        help = f"{tr(chart.help)} {tr(_HELP)}"
         self.plot.setAccessibleName(tr("Chart of {title}", title=tr(chart.title)))
-        self.plot.setAccessibleDescription(f"{tr(chart.help)} {tr(_HELP)}")
-        self.plot.setWhatsThis(f"{tr(chart.help)} {tr(_HELP)}")
-        self.title = note()
-        self.title.setWordWrap(False)
-        set_help(self.title, tr(chart.title), f"{tr(chart.help)} {tr(_HELP)}")
+        self.plot.setAccessibleDescription(help)
+        self.plot.setWhatsThis(help)
+        title = tr(chart.title)
+        if len(chart.quantities) > 1:
+            title = ", ".join(f"{tr(one.label)} {dash}" for one, dash in zip(chart.quantities, _DASHES, strict=False))
+        self.title = ElidingLabel(title)
+        self.title.setFont(smaller(self.font()))
+        tint(self.title, MUTED)
+        set_help(self.title, tr(chart.title), help)
         self._blank = note()
         self._blank.setAccessibleName(tr("Why the chart of {title} is empty", title=tr(chart.title)))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -111,9 +119,7 @@ class ConvergencePlot(QWidget):
         self.marker = pg.InfiniteLine(0, movable=False)
         self.marker.setZValue(20)
         self.plot.addItem(self.marker, ignoreBounds=True)
-        self.plot.getAxis("bottom").setStyle(showValues=False)
-        self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
-        self.lines: dict[tuple[int, str], pg.PlotDataItem] = {}
+        self.lines: list[pg.PlotDataItem] = []
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
         self._dragged_record: RunRecord | None = None
@@ -132,36 +138,31 @@ class ConvergencePlot(QWidget):
     def draw(self, curves: Sequence[Curve], by_time: bool, log: bool) -> None:
         """Draw runs against iterations or seconds; `log` applies to quantities that suit it."""
         self._curves, self._by_time, self._log = [curve for curve in curves if curve.shown], by_time, log
-        self._fit()
-        wanted = {(curve.slot, quantity.key) for curve in self._curves for quantity in self.chart.quantities}
-        for key in self.lines.keys() - wanted:
-            self.plot.removeItem(self.lines.pop(key))
-        for curve in self._curves:
-            for pen_style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
-                self._draw_curve(curve, quantity, pen_style)
-        self.title.setText(titled(self.chart, curves, _DASHES))
-        self._blank.setText(reason_if_blank(self.chart, curves))
-
-    def _draw_curve(self, curve: Curve, quantity: PlottedQuantity, pen_style: Qt.PenStyle) -> None:
-        line = self.lines.get((curve.slot, quantity.key))
-        if line is None:
+        chart = described(self.chart, self._curves, by_time, log)
+        self._fit(chart)
+        while len(self.lines) < len(chart.lines):
             line = pg.PlotDataItem(connect="finite", autoDownsample=True, downsampleMethod="peak", symbolPen=None)
             line.scatter.setEnabled(False)  # clicks on markers go to the chart
-            self.lines[curve.slot, quantity.key] = line
+            self.lines.append(line)
             self.plot.addItem(line, ignoreBounds=True)
-        x, y = curve.drawn(quantity.key, self._by_time)
-        colour = QColor(str(colour_of(curve)))
-        colour.setAlphaF(1.0 if curve.current else 0.65)
-        finite = slice(None) if np.isfinite(y).any() else slice(0)  # pyqtgraph cannot draw nan alone
-        line.setData(
-            x[finite],
-            self.heights(y)[finite],
-            pen=pg.mkPen(colour, width=2.0 if curve.current else 1.0, style=pen_style),
-            symbol="o" if len(x) <= _MAX_MARKERS else None,
+        while len(self.lines) > len(chart.lines):
+            self.plot.removeItem(self.lines.pop())
+        for item, line in zip(self.lines, chart.lines, strict=True):
+            self._draw_line(item, line)
+        self._blank.setText(reason_if_blank(self.chart, curves))
+
+    def _draw_line(self, item: pg.PlotDataItem, line: Line) -> None:
+        colour = QColor(line.colour)
+        colour.setAlphaF(1.0 if line.strong else 0.65)
+        item.setData(
+            line.x,
+            self.heights(line.y),
+            pen=pg.mkPen(colour, width=2.0 if line.strong else 1.0, style=_STYLES[line.dash]),
+            symbol="o" if len(line.x) <= _MAX_MARKERS else None,
             symbolBrush=colour,
-            symbolSize=5 if curve.current else 4,
+            symbolSize=5 if line.strong else 4,
         )
-        line.setZValue(10 if curve.current else 0)
+        item.setZValue(10 if line.strong else 0)
 
     def heights(self, values: np.ndarray) -> np.ndarray:
         """Return the positions of values on the vertical axis, (k,) float64."""
@@ -176,7 +177,7 @@ class ConvergencePlot(QWidget):
     @property
     def is_log(self) -> bool:
         """Return True if the vertical axis is logarithmic."""
-        return self._log and self.chart.quantities[0].log
+        return self._log and self.chart.log
 
     def mark(self, x: float | None) -> None:
         """Move the marker of the iteration shown; None hides it."""
@@ -184,43 +185,20 @@ class ConvergencePlot(QWidget):
         if x is not None:
             self.marker.setValue(x)
 
-    def set_bottom_axis(self, label: str | None, left_width: int) -> None:
-        """Set the label of the horizontal axis, and the width of the vertical axis.
-
-        Parameters
-        ----------
-        label : str, optional
-            None for an axis without texts: those are below the lowest chart.
-        left_width : int
-            Pixels.
-        """
-        bottom = self.plot.getAxis("bottom")
-        bottom.setStyle(showValues=label is not None)
-        bottom.showLabel(label is not None)
-        line = self.fontMetrics().height()
-        if label is not None:
-            bottom.setLabel(label)
-        bottom.setHeight(2 * line if label is not None else 5)
-        self.plot.setMinimumHeight(_MIN_HEIGHT + (2 * line if label is not None else 0))
-        self.plot.getAxis("left").setWidth(left_width)
-        bottom.resizeEvent()
-
-    def _fit(self) -> None:
+    def _fit(self, chart: LineChart) -> None:
         """Fit the vertical axis to the values."""
-        columns = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
-        values = np.concatenate([*columns, np.empty(0)])
-        values, whole = values[np.isfinite(values)], self.chart.quantities[0].whole
+        values = chart.values
         least, most = float(values.min(initial=0.0)), float(values.max(initial=0.0))
         ticks, self.zero = None, None
         if self.chart.key == "quality":
             low, high = (-1.0 if least < 0 else 0.0), 1.0
-        elif not self.is_log:
-            low, high = 0.0, max(most, _LEAST_WHOLE) if whole else most or 1.0
+        elif not chart.log:
+            low, high = 0.0, max(most, _LEAST_WHOLE) if chart.whole else most or 1.0
         else:
             positive = values[values > 0]
             low = math.floor(math.log10(positive.min())) if positive.size else 0
-            if least <= 0 and (values <= 0).any():
-                low = self.zero = (0 if whole else low) - 1
+            if (values <= 0).any():
+                low = self.zero = (0 if chart.whole else low) - 1
             high = max(math.log10(most or 1.0), low + 1.0)
             powers = log_ticks(low, high)
             ticks = [powers if self.zero is None else [(low, "0"), *powers[1:]]]

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from hexmend.iteration.figures import objective_changes
-from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
+from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS, Chart
+from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.theme.palette import RUN_COLOURS, Role
 from hexmend_app.translation import tr
 
-_RECORDED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.quantity is not STEP_SECONDS)
+_RECORDED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one is not STEP_SECONDS)
 
 
 class Columns:
@@ -86,8 +87,6 @@ class Curve:
         The run is plotted; the run is selected in the timeline.
     running : bool
         The run has not ended.
-    stored : callable
-        Returns the numbers of the iterations with stored positions, ascending, (k,) int.
     """
 
     columns: Columns
@@ -96,7 +95,6 @@ class Curve:
     shown: bool
     current: bool
     running: bool
-    stored: Callable[[], np.ndarray]
 
     @property
     def record(self) -> RunRecord:
@@ -117,6 +115,32 @@ class Curve:
     def nearest(self, x: float, by_time: bool) -> int:
         """Return the iteration nearest to a position on the axis."""
         return int(np.abs(self.x(by_time) - x).argmin())
+
+
+def described(chart: Chart, curves: Sequence[Curve], by_time: bool, log: bool, for_print: bool = False) -> LineChart:
+    """Describe a chart of the runs that are shown, to be drawn.
+
+    Parameters
+    ----------
+    chart : Chart
+    curves : sequence of Curve
+    by_time : bool
+        Plot against seconds instead of iterations.
+    log : bool
+        Use a logarithmic axis if it suits the chart.
+    for_print : bool
+        Use the colours of the light theme instead of those of the current one.
+    """
+    lines = []
+    for curve in (curve for curve in curves if curve.shown):
+        role = colour_of(curve)
+        for dash, quantity in zip(DASHES, chart.quantities, strict=False):
+            x, y = curve.drawn(quantity.key, by_time)
+            if np.isfinite(y).any():
+                colour = role.light if for_print else str(role)
+                part = quantity.label if len(chart.quantities) > 1 else ""
+                lines.append(Line(curve.record.name, colour, x, y, dash, curve.current, part))
+    return LineChart(chart.title, lines, log and chart.log, chart.whole)
 
 
 def colour_of(curve: Curve) -> Role:
@@ -140,6 +164,17 @@ def run_start(record: RunRecord) -> tuple[float, float]:
         iteration += number
         seconds += record.rows[number]["seconds"]
     return iteration, seconds
+
+
+def table_rows(columns: Columns, names: Mapping[str, str]) -> list[dict[str, Any]]:
+    """Return a row for each iteration of a run: the run, its parent, and all values; `names` maps to printed names."""
+    record, step_seconds = columns.record, columns.of("step_seconds")
+    name = names.get(record.name) or record.name
+    parent = "" if record.parent is None else names.get(record.parent.name) or record.parent.name
+    return [
+        {"run": name, "branch_of": parent, **row, "step_seconds": seconds if at else None}
+        for at, (row, seconds) in enumerate(zip(record.rows, step_seconds.tolist(), strict=False))
+    ]
 
 
 def _balance_starts(rows: Sequence[Mapping[str, Any]]) -> list[int]:

@@ -7,12 +7,14 @@ from pathlib import Path
 
 from superqt.utils import QSignalThrottler
 
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.report.records import write_csv
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
-from hexmend_app.features.convergence.chart_file import ConvergenceExport
-from hexmend_app.features.convergence.charts import ChartSettings
-from hexmend_app.features.convergence.curves import Columns, Curve, run_start
+from hexmend_app.features.convergence.charts import CHARTS, ChartSettings
+from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.report.charts import ChartStyle
+from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
+from hexmend_app.report.convergence import Convergence
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
@@ -44,8 +46,7 @@ class FeatureConvergence(Feature):
         self._throttler.setTimeout(_PERIOD)
         self._throttler.triggered.connect(self._show)
         panel.head.from_zero.toggled.connect(self._show)
-        panel.legend.toggled.connect(self._on_toggled)
-        panel.legend.forget_requested.connect(timeline.delete)
+        panel.runs.toggled.connect(self._on_toggled)
         panel.picked.connect(timeline.go_soon)
         panel.head.save.triggered.connect(self.ask)
 
@@ -105,7 +106,6 @@ class FeatureConvergence(Feature):
             shown=record.plotted,
             current=record is self._timeline.record,
             running=self._run.busy and record is self._run.record,
-            stored=lambda: self._history.recorded_numbers(record),
         )
 
     def _mark(self) -> None:
@@ -125,26 +125,28 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
-        chart, file_name = self._exported().figure(), f"{self.host.stem}-convergence.svg"
+        chart, file_name = self._described(), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
         return self.host.try_and_report(
             tr("Charts not saved"),
-            lambda: self._exported().write(path, style),
+            lambda: self._write(Path(path), style or ChartStyle()),
             tr("Convergence saved to {path}", path=path),
         )
 
-    def _exported(self) -> ConvergenceExport:
-        """Return the charts that are shown."""
-        settings = self.panel.head.settings()
-        return ConvergenceExport(
-            self._document.name,
-            self._history.records,
-            settings.shown,
-            settings.by_time,
-            settings.logarithmic,
-            settings.from_zero,
-            self._timeline.record,
-        )
+    def _write(self, path: Path, style: ChartStyle) -> None:
+        charts = self._described()
+        if suffix_for(path, "a chart", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
+            write_csv(path, [row for columns in self._columns.values() for row in table_rows(columns, style.names)])
+        else:
+            write_chart(path, charts.draw, style)
+
+    def _described(self) -> Convergence:
+        """Return the charts that are selected, for print."""
+        self._show()
+        curves, settings = self.panel.curves, self.panel.head.settings()
+        by_time, log = settings.by_time, settings.logarithmic
+        charts = [described(CHARTS[key], curves, by_time, log, for_print=True) for key in settings.shown]
+        return Convergence(charts, self._document.name, axis_title(curves, by_time), not by_time)

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, smaller
+from hexmend_app.theme.style import icon
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.menu_button import MenuButton
-from hexmend_app.widgets.inputs.segmented import Segmented
 
 _LOG = "Logarithmic axes, except for quality, solver iterations and backtracks. Zero is drawn below the smallest value."
+_BY_TIME = "Plot against the seconds spent in the method, or the times of a case, instead of iterations."
 _FROM_ZERO = "Start every run at 0 instead of where it branched off."
 
 
@@ -24,8 +24,7 @@ class ConvergenceHead(QWidget):
     ----------
     charts : dict of str to QAction
         By chart key, checked if the chart is shown.
-    log, from_zero, save : QAction
-    axis : Segmented
+    log, by_time, from_zero, save : QAction
 
     Signals
     -------
@@ -50,28 +49,18 @@ class ConvergenceHead(QWidget):
         charts.menu().addActions(list(self.charts.values()))
         charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.log = self._action(tr("Logarithmic axes"), tr(_LOG), True)
-        self.log.toggled.connect(self.axes_changed)
+        self.by_time = self._action(tr("Time axis"), tr(_BY_TIME), False)
+        for action in (self.log, self.by_time):
+            action.toggled.connect(self.axes_changed)
         self.from_zero = self._action(tr("Start branches at 0"), tr(_FROM_ZERO), False)
         self.save = self._action(
             tr("Save…"), tr("Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
         )
-        options = MenuButton(tr("Chart options"), tr("Logarithmic axes, start of branches, save."))
+        options = MenuButton(tr("Chart options"), tr("Axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))
-        options.menu().addActions([self.log, self.from_zero, self.save])
-        self.axis = Segmented(
-            tr("Chart axis"),
-            [
-                ("iteration", tr("Iteration"), tr("Plot against iterations.")),
-                ("time", tr("Time"), tr("Plot against the seconds spent in the method, or the times of a case.")),
-            ],
-        )
-        self.axis.setFont(smaller(self.font()))
-        self.axis.chosen.connect(self.axes_changed)
-        for button in (charts, options):
-            button.setFixedHeight(self.axis.sizeHint().height())
-        buttons = fill(QHBoxLayout(), charts, options)
-        self._layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
-        fill(self._layout, (buttons, 1), self.axis, margins=(0, 0, 0, 0))
+        options.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        options.menu().addActions([self.log, self.by_time, self.from_zero, self.save])
+        fill(QHBoxLayout(self), charts, options, margins=(0, 0, 0, 0))
 
     def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
         action = QAction(text, self)
@@ -80,26 +69,15 @@ class ConvergenceHead(QWidget):
         action.setToolTip(f"<qt>{help}</qt>")
         return action
 
-    def set_horizontal(self, on: bool) -> None:
-        """Arrange the controls side by side, or stack them."""
-        directions = QBoxLayout.Direction
-        self._layout.setDirection(directions.LeftToRight if on else directions.TopToBottom)
-
-    @property
-    def by_time(self) -> bool:
-        """Return True if the axis shows seconds."""
-        return self.axis.value() == "time"
-
     def settings(self) -> ChartSettings:
         """Return the settings."""
         shown = tuple(key for key, action in self.charts.items() if action.isChecked())
-        return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
+        return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time.isChecked())
 
     def restore(self, settings: ChartSettings) -> None:
-        """Apply settings and emit `axes_changed`."""
+        """Apply settings."""
         for key, action in self.charts.items():
             action.setChecked(key in settings.shown)
         self.log.setChecked(settings.logarithmic)
         self.from_zero.setChecked(settings.from_zero)
-        self.axis.set_value("time" if settings.by_time else "iteration")
-        self.axes_changed.emit()
+        self.by_time.setChecked(settings.by_time)

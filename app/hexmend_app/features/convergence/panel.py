@@ -14,7 +14,7 @@ from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import Curve, axis_title
 from hexmend_app.features.convergence.head import ConvergenceHead
 from hexmend_app.features.convergence.point_texts import describe
-from hexmend_app.features.convergence.run_legend import RunLegend
+from hexmend_app.features.convergence.run_list import RunList
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note
@@ -23,11 +23,12 @@ from hexmend_app.widgets.form_grid import scrolled
 
 _EMPTY = "No runs yet. Values of each iteration will appear here."
 
-#: Width of the controls next to the charts, and smallest width of a panel with the controls at the side, in pixels.
-_SIDE, _WIDE = 158, 420
+#: Width of the controls next to the charts, their height above them, and smallest width of a panel with the controls
+#: at the side, in pixels.
+_SIDE, _ABOVE, _WIDE = 158, 90, 420
 
-#: Charts lower than this are in a row instead of stacked, if each is then as wide as this, in pixels.
-_LOW_CHART, _CHART_WIDTH = 96, 200
+#: Charts lower than this are in a row instead of stacked, in pixels.
+_LOW_CHART = 130
 
 #: Smallest number of iterations on the axis, so that its ticks are whole.
 _LEAST_ITERATIONS = 5.0
@@ -42,7 +43,7 @@ class ConvergencePanel(QWidget):
     Attributes
     ----------
     head : ConvergenceHead
-    legend : RunLegend
+    runs : RunList
     side, plotting : QWidget
         Parents of the controls and of the charts.
 
@@ -57,29 +58,25 @@ class ConvergencePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.curves: Sequence[Curve] = ()
-        self._axis: tuple = ()  # low, high, by_time
         self._shown: tuple[RunRecord, int] | None = None
         self.plots = {key: ConvergencePlot(chart) for key, chart in CHARTS.items()}
         for plot in self.plots.values():
             plot.picked.connect(self.picked)
             plot.hovered.connect(partial(self._on_hovered, plot))
-        self.head, self.legend = ConvergenceHead(), RunLegend()
-        self.head.charts_changed.connect(self._arrange)
+        self.head, self.runs = ConvergenceHead(), RunList()
+        self.head.charts_changed.connect(self._redraw)
         self.head.axes_changed.connect(self._redraw)
         self._lay_out()
-        self._arrange()
         self.set_curves(())
 
     def _lay_out(self) -> None:
-        stack = QWidget()
+        stack, self.side = QWidget(), QWidget()
         self._charts = QBoxLayout(QBoxLayout.Direction.TopToBottom, stack)
         fill(self._charts, *((plot, 1) for plot in self.plots.values()), margins=(0, 0, 0, 0), spacing=4)
         self._empty = note(tr(_EMPTY))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
-        side = fill(QVBoxLayout(), self.head, (self._runs, 1), margins=(0, 0, 0, 0))
-        self.side = QWidget()
-        self.side.setLayout(side)
+        self.plotting = scrolled(stack)
+        fill(QVBoxLayout(self.side), self.head, (self.runs, 1), margins=(0, 0, 0, 0))
         self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
         fill(self._layout, self.side, (self.plotting, 1), (self._empty, 1), margins=(8, 4, 8, 4))
 
@@ -90,25 +87,22 @@ class ConvergencePanel(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Place the controls next to the charts, or above them in a narrow panel; put low charts in a row."""
         super().resizeEvent(event)
-        self._place()
-        self._arrange_charts()
+        self._arrange()
 
-    def _place(self) -> None:
-        wide = self.width() >= _WIDE
-        directions = QBoxLayout.Direction
+    def _arrange(self) -> None:
+        directions, wide = QBoxLayout.Direction, self.width() >= _WIDE
         self._layout.setDirection(directions.RightToLeft if wide else directions.TopToBottom)
-        self.head.set_horizontal(not wide)
         self.side.setMinimumWidth(_SIDE if wide else 0)
-        self.side.setMaximumWidth(_SIDE if wide else _UNBOUNDED)
-        row = self.fontMetrics().height() + 3
-        self._runs.setMaximumHeight(_UNBOUNDED if wide else min(2, len(self.curves)) * row)
+        self.side.setMaximumSize(_SIDE if wide else _UNBOUNDED, _UNBOUNDED if wide else _ABOVE)
+        in_row = wide and self.height() < len(self.drawn) * _LOW_CHART
+        self._charts.setDirection(directions.LeftToRight if in_row else directions.TopToBottom)
 
     # Curves
 
     @property
     def by_time(self) -> bool:
         """Return True if the axis shows seconds."""
-        return self.head.by_time
+        return self.head.by_time.isChecked()
 
     @property
     def drawn(self) -> list[ConvergencePlot]:
@@ -118,11 +112,10 @@ class ConvergencePanel(QWidget):
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """Plot runs, the oldest first."""
         self.curves = curves
-        self.legend.set_curves(curves)
+        self.runs.set_curves(curves)
         self.head.save.setEnabled(bool(curves))
         self._empty.setVisible(not curves)
         self.plotting.setVisible(bool(curves))
-        self._place()
         self._redraw()
 
     def set_shown(self, record: RunRecord | None, number: int = 0) -> None:
@@ -130,37 +123,19 @@ class ConvergencePanel(QWidget):
         self._shown = None if record is None else (record, number)
         self._mark()
 
-    @property
-    def in_row(self) -> bool:
-        """True if the charts are next to each other, rather than stacked."""
-        return self._charts.direction() is QBoxLayout.Direction.LeftToRight
-
-    def _arrange(self) -> None:
-        drawn = self.drawn
-        for plot in self.plots.values():
-            plot.setVisible(plot in drawn)
-        self._arrange_charts()
-        self._axis = ()
-        self._redraw()
-
-    def _arrange_charts(self) -> None:
-        """Put the charts in a row if they were too low one above the other, and the room is wide enough."""
-        count = max(len(self.drawn), 1)
-        low = self.height() < count * _LOW_CHART and self.width() - _SIDE >= count * _CHART_WIDTH
-        if low != self.in_row:
-            directions = QBoxLayout.Direction
-            self._charts.setDirection(directions.LeftToRight if low else directions.TopToBottom)
-            self._axis = ()
-            self._fit()
-
     def _redraw(self) -> None:
-        self._fit()
+        self._arrange()
+        low, high = self._span()
+        for plot in self.plots.values():
+            plot.setVisible(plot in self.drawn)
         for plot in self.drawn:
+            plot.plot.setXRange(low, high, padding=0.012)
+            plot.plot.getAxis("bottom").setLabel(axis_title(self.curves, self.by_time))
             plot.draw(self.curves, self.by_time, self.head.log.isChecked())
         self._mark()
 
-    def _fit(self) -> None:
-        """Fit the shared axis to the runs; in steps during a run, so that it changes seldom."""
+    def _span(self) -> tuple[float, float]:
+        """Return the ends of the shared axis; in steps during a run, so that it changes seldom."""
         positions = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
         low = min((float(x[0]) for x in positions), default=0.0)
         high = max((float(x[-1]) for x in positions), default=1.0)
@@ -168,17 +143,7 @@ class ConvergencePanel(QWidget):
         if any(curve.running for curve in self.curves):
             step = 10.0 ** len(f"{high - low:.0f}") / 20
             high = low + step * (1 + (high - low) // step)
-        label = axis_title(self.curves, self.by_time)
-        axis = (low, high, label)
-        if axis == self._axis:
-            return
-        self._axis = axis
-        margin = 0.012 * (high - low)
-        left_width = self.fontMetrics().horizontalAdvance("000,000")
-        for plot in self.drawn:
-            plot.plot.setXRange(low - margin, high + margin, padding=0)
-            has_axis = self.in_row or plot is self.drawn[-1]
-            plot.set_bottom_axis(label if has_axis else None, left_width)
+        return low, high
 
     def _mark(self) -> None:
         x = None

@@ -1,4 +1,4 @@
-"""Texts of the convergence charts: tooltips, headings and reasons for empty charts."""
+"""Texts of the convergence charts: tooltips and reasons for empty charts."""
 
 from __future__ import annotations
 
@@ -21,22 +21,6 @@ def describe(chart: Chart, curves: Sequence[Curve], x: float, by_time: bool) -> 
         for curve in curves
         if curve.shown and _extends_to(curve, x, by_time)
     )
-
-
-def titled(chart: Chart, curves: Sequence[Curve], dashes: Sequence[str]) -> str:
-    """Return a chart's heading: quantities with their dashes if there are several, and the runs it omits."""
-    heading = tr(chart.title)
-    if len(chart.quantities) > 1:
-        heading = ", ".join(f"{tr(one.title)} {dash}" for one, dash in zip(chart.quantities, dashes, strict=False))
-    omitted = [curve for curve in curves if curve.shown and not _reported(chart, curve)]
-    infinite = [curve.record.name for curve in omitted if _infinite(chart, curve)]
-    unreported = [curve.record.name for curve in omitted if not _infinite(chart, curve)]
-    notes = []
-    if infinite:
-        notes.append(tr("infinite for {infinite} while hexes are inverted", infinite=", ".join(infinite)))
-    if unreported:
-        notes.append(tr("not reported by {unreported}", unreported=", ".join(unreported)))
-    return f"{heading}: {'; '.join(notes)}" if notes else heading
 
 
 def reason_if_blank(chart: Chart, curves: Sequence[Curve]) -> str:
@@ -82,21 +66,18 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     for quantity in chart.quantities:
         value = curve.columns.of(quantity.key)[number]
         if np.isfinite(value):
-            text = figure(int(value)) if quantity.whole else _significant(float(value))
+            text = figure(int(value)) if chart.whole else _significant(float(value))
         else:
             text = tr("infinite") if quantity.key == "objective" else tr("not reported")
         row = curve.record.rows[number] if quantity.key == "objective" else {}
         formula = row.get("objective_formula")
-        values.append(f"{tr(quantity.title)} {formula} {text}" if formula else f"{tr(quantity.title)} {text}")
+        values.append(f"{tr(quantity.label)} {formula} {text}" if formula else f"{tr(quantity.label)} {text}")
         if balances(row):
             values.append(tr("may rise while the minima are raised"))
-    stored = curve.stored()
-    nearest = int(stored[np.abs(stored - number).argmin()])
-    thinned = "" if nearest == number else tr(" (nearest stored: {nearest})", nearest=nearest)
     seconds = tr(" at {seconds:.3g} s", seconds=curve.columns.seconds[number]) if by_time else ""
     pause = curve.record.pauses.get(number)
     paused = "\n    " + tr("paused: {reason}", reason=pause) if pause else ""
-    return f"{_named(curve.record, number)}{seconds}: {', '.join(values)}{thinned}{paused}"
+    return f"{_named(curve.record, number)}{seconds}: {', '.join(values)}{paused}"
 
 
 def _named(record: RunRecord, number: int) -> str:

@@ -37,7 +37,7 @@ def test_a_session_restores_the_whole_window(window, fresh_window, qtbot, tmp_pa
     ticked = table.model().index(1, 0)
     table.model().setData(ticked, Qt.CheckState.Checked, Qt.ItemDataRole.CheckStateRole)
     for record in window.session.history.records[:1]:
-        window.features["convergence"].panel.legend.toggled.emit(record, False)
+        window.features["convergence"].panel.runs.toggled.emit(record, False)
     saved(window, tmp_path)  # the camera fits the view anew beneath the message
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
