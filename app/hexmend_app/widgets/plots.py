@@ -3,13 +3,60 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtWidgets import QFrame, QToolTip
 
 from hexmend_app.theme.palette import LINE, MUTED
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
+
+
+class MouseView(pg.ViewBox):
+    """View that announces clicks and drags by their positions on the plot.
+
+    Signals
+    -------
+    clicked(place, double)
+    dragged(start, place, begins)
+        The user drags; `begins` is True at the begin of the drag.
+    """
+
+    clicked = Signal(QPointF, bool)
+    dragged = Signal(QPointF, QPointF, bool)
+
+    def __init__(self):
+        super().__init__(enableMenu=False, defaultPadding=0)
+
+    def mouseDragEvent(self, ev, axis=None) -> None:
+        """Announce a drag."""
+        if ev.button() != Qt.MouseButton.LeftButton:
+            ev.ignore()
+            return
+        ev.accept()
+        self.dragged.emit(self.mapToView(ev.buttonDownPos()), self.mapToView(ev.pos()), ev.isStart())
+
+    def mouseClickEvent(self, ev) -> None:
+        """Announce a click."""
+        if ev.button() == Qt.MouseButton.LeftButton:
+            ev.accept()
+            self.clicked.emit(self.mapToView(ev.pos()), ev.double())
+
+    def wheelEvent(self, ev, axis=None) -> None:
+        """Leave the wheel to the parent, which scrolls."""
+        ev.ignore()
+
+
+def show_tooltips(plot: pg.PlotWidget, describe: Callable[[QPointF], str]) -> None:
+    """Show the description of the position under the mouse as the tooltip of a plot."""
+
+    def on_moved(place: QPointF) -> None:
+        view = plot.getViewBox()
+        text = describe(view.mapSceneToView(place)) if view.sceneBoundingRect().contains(place) else ""
+        QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(place)), text, plot)
+
+    plot.scene().sigMouseMoved.connect(on_moved)
 
 
 def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:

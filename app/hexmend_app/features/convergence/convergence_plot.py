@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.charts import Chart
 from hexmend_app.features.convergence.curves import Curve, described
-from hexmend_app.features.convergence.point_texts import reason_if_blank
+from hexmend_app.features.convergence.point_texts import describe, reason_if_blank
 from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import MUTED, TEXT
@@ -21,7 +21,7 @@ from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.plots import calm_plot, log_ticks
+from hexmend_app.widgets.plots import MouseView, calm_plot, log_ticks, show_tooltips
 
 _STYLES = dict(zip(DASHES, (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine), strict=True))
 _DASHES = ("—", "- -", "···")
@@ -37,33 +37,6 @@ _MAX_MARKERS = 40
 #: Smallest upper end of a linear axis of whole numbers, so that its ticks are whole.
 _LEAST_WHOLE = 5.0
 _HELP = "Click or drag in the chart to go to an iteration."
-
-
-class _PickView(pg.ViewBox):
-    """View box that reports the positions of clicks and drags; True at the start of each."""
-
-    picked = Signal(QPointF, bool)
-
-    def __init__(self):
-        super().__init__(enableMenu=False, defaultPadding=0)
-
-    def mouseClickEvent(self, ev) -> None:
-        """Report a click."""
-        if ev.button() == Qt.MouseButton.LeftButton:
-            ev.accept()
-            self.picked.emit(ev.scenePos(), True)
-
-    def mouseDragEvent(self, ev, axis=None) -> None:
-        """Report a drag."""
-        if ev.button() != Qt.MouseButton.LeftButton:
-            ev.ignore()
-            return
-        ev.accept()
-        self.picked.emit(ev.scenePos(), ev.isStart())
-
-    def wheelEvent(self, ev, axis=None) -> None:
-        """Ignore the wheel, which scrolls the panel."""
-        ev.ignore()
 
 
 class ConvergencePlot(QWidget):
@@ -86,19 +59,17 @@ class ConvergencePlot(QWidget):
     -------
     picked(RunRecord, number)
         The user clicked or dragged to an iteration.
-    hovered(QPointF or None)
-        The mouse is at this position of the scene of `plot`, or outside it.
     """
 
     picked = Signal(object, int)
-    hovered = Signal(object)
 
     def __init__(self, chart: Chart, parent: QWidget | None = None):
         super().__init__(parent)
         self.chart = chart
-        self.view = _PickView()
+        self.view = MouseView()
         self.plot = calm_plot(self.view)
         self.plot.setMinimumHeight(_MIN_HEIGHT)
+        self.plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height())
         self.plot.getAxis("left").setWidth(self.fontMetrics().horizontalAdvance("000,000"))
         help = f"{tr(chart.help)} {tr(_HELP)}"
         self.plot.setAccessibleName(tr("Chart of {title}", title=tr(chart.title)))
@@ -125,8 +96,9 @@ class ConvergencePlot(QWidget):
         self._dragged_record: RunRecord | None = None
         self.zero: float | None = None
         fill(QVBoxLayout(self), self.title, (self.plot, 1), margins=(0, 0, 0, 0), spacing=0)
-        self.view.picked.connect(self._on_picked)
-        self.plot.scene().sigMouseMoved.connect(self._on_moved)
+        self.view.clicked.connect(lambda place, _: self._on_picked(place, True))
+        self.view.dragged.connect(lambda _, place, begins: self._on_picked(place, begins))
+        show_tooltips(self.plot, lambda place: describe(self.chart, self._curves, place.x(), self._by_time))
         on_theme_change(self, self._paint)
 
     def _paint(self) -> None:
@@ -207,17 +179,16 @@ class ConvergencePlot(QWidget):
 
     # Mouse
 
-    def at(self, place: QPointF) -> tuple[Curve, int] | None:
-        """Return the run and iteration at a position of the scene, or None if the chart is empty."""
+    def at(self, point: QPointF) -> tuple[Curve, int] | None:
+        """Return the run and iteration at a position of the chart, or None if it is empty."""
         if not self._curves:
             return None
-        point = self.view.mapSceneToView(place)
         pixel_width, pixel_height = self.view.viewPixelSize()
         best, smallest = None, _PICK_DISTANCE
         for curve in self._curves:
             number = curve.nearest(point.x(), self._by_time)
             for quantity in self.chart.quantities:
-                y = self.heights(curve.columns.of(quantity.key)[number : number + 1])[0]
+                y = self.heights(curve.of(quantity.key)[number : number + 1])[0]
                 x = curve.x(self._by_time)[number]
                 distance = math.hypot((x - point.x()) / pixel_width, (y - point.y()) / pixel_height)
                 if distance < smallest:
@@ -233,7 +204,4 @@ class ConvergencePlot(QWidget):
             self._dragged_record = None if picked is None else picked[0].record
         dragged = next((curve for curve in self._curves if curve.record is self._dragged_record), None)
         if dragged is not None:
-            self.picked.emit(dragged.record, dragged.nearest(self.view.mapSceneToView(place).x(), self._by_time))
-
-    def _on_moved(self, place: QPointF) -> None:
-        self.hovered.emit(place if self.view.sceneBoundingRect().contains(place) else None)
+            self.picked.emit(dragged.record, dragged.nearest(place.x(), self._by_time))

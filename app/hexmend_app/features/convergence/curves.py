@@ -1,84 +1,27 @@
-"""Values of runs as curves: columns of values and positions on the axis."""
+"""Values of runs as curves: values and positions on the axis."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from hexmend.iteration.figures import objective_changes
-from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS, Chart
+from hexmend_app.features.convergence.charts import STEP_SECONDS, Chart
 from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.theme.palette import RUN_COLOURS, Role
 from hexmend_app.translation import tr
 
-_RECORDED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one is not STEP_SECONDS)
 
-
-class Columns:
-    """Values of one run as arrays, (k,) float64, that grow with the run; nan if there is no value.
+class Curve:
+    """Curve of a run in the charts, with the iterations that it has so far.
 
     Parameters
     ----------
     record : RunRecord
-    """
-
-    def __init__(self, record: RunRecord):
-        self.record = record
-        self._known = 0
-        self._changes: list[int] = []
-        self._rows = np.empty((64, len(_RECORDED) + 1))
-
-    def grow(self) -> None:
-        """Read the iterations added to the record since the last call."""
-        rows = self.record.rows
-        newest = len(rows)  # the run's thread may append more meanwhile
-        if newest > len(self._rows):
-            self._rows = np.resize(self._rows, (max(newest, 2 * len(self._rows)), len(_RECORDED) + 1))
-        for at in range(self._known, newest):
-            self._rows[at] = [*(_number(rows[at].get(key)) for key in _RECORDED), rows[at]["seconds"]]
-        if self._known == 0 < newest:
-            self._rows[0, _RECORDED.index("largest_move")] = np.nan  # nothing has moved at the start
-        self._known = newest
-        known = rows[:newest]
-        self._changes = sorted({*objective_changes(known), *_balance_starts(known)})
-
-    def __len__(self) -> int:
-        return self._known
-
-    @property
-    def seconds(self) -> np.ndarray:
-        """Seconds since the start of the run, or times of a case, (k,) float64."""
-        return self._rows[: self._known, -1]
-
-    def of(self, key: str) -> np.ndarray:
-        """Return the values of a quantity, (k,) float64."""
-        if key == STEP_SECONDS.key:
-            if self.record.holds_times:
-                return np.full(self._known, np.nan)
-            return np.diff(self.seconds, prepend=np.nan)
-        return self._rows[: self._known, _RECORDED.index(key)]
-
-    def breaks(self, key: str) -> list[int]:
-        """Return the iterations from which on a quantity is another one, or a stage begins that may raise it."""
-        return self._changes if key == "objective" else []
-
-    def reports(self, key: str) -> bool:
-        """Return True if the method reports this quantity, or may after its first iteration."""
-        return self._known < 2 or bool(np.isfinite(self.of(key)).any())
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """Curve of a run in the charts.
-
-    Parameters
-    ----------
-    columns : Columns
     slot : int
         Index of its colour.
     start : (iteration, seconds)
@@ -89,28 +32,37 @@ class Curve:
         The run has not ended.
     """
 
-    columns: Columns
-    slot: int
-    start: tuple[float, float]
-    shown: bool
-    current: bool
-    running: bool
+    def __init__(
+        self,
+        record: RunRecord,
+        slot: int,
+        start: tuple[float, float] = (0.0, 0.0),
+        shown: bool = True,
+        current: bool = True,
+        running: bool = False,
+    ):
+        self.record, self.slot, self.start = record, slot, start
+        self.shown, self.current, self.running = shown, current, running
+        self.rows = list(record.rows)  # the run's thread may append more meanwhile
 
-    @property
-    def record(self) -> RunRecord:
-        """Record of the run."""
-        return self.columns.record
+    def of(self, key: str) -> np.ndarray:
+        """Return the values of a quantity, (k,) float64; nan if there is no value."""
+        if key == STEP_SECONDS.key:
+            seconds = np.full(len(self.rows), np.nan) if self.record.holds_times else self.of("seconds")
+            return np.diff(seconds, prepend=np.nan)
+        values = np.array([row.get(key) for row in self.rows], dtype=float)
+        if key == "largest_move":
+            values[:1] = np.nan  # nothing has moved at the start
+        return values
 
     def x(self, by_time: bool) -> np.ndarray:
         """Return the axis positions of the iterations, (k,) float64."""
-        if by_time:
-            return self.start[1] + self.columns.seconds
-        return self.start[0] + np.arange(len(self.columns))
+        return self.start[1] + self.of("seconds") if by_time else self.start[0] + np.arange(len(self.rows))
 
     def drawn(self, key: str, by_time: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of a quantity, (k,) float64; nan is a gap, for example where the objective changes."""
-        breaks = self.columns.breaks(key)
-        return np.insert(self.x(by_time), breaks, np.nan), np.insert(self.columns.of(key), breaks, np.nan)
+        """Return x and y of a quantity, (k,) float64; nan is a gap where the objective changes or may rise."""
+        breaks = sorted({*objective_changes(self.rows), *_balance_starts(self.rows)}) if key == "objective" else []
+        return np.insert(self.x(by_time), breaks, np.nan), np.insert(self.of(key), breaks, np.nan)
 
     def nearest(self, x: float, by_time: bool) -> int:
         """Return the iteration nearest to a position on the axis."""
@@ -166,14 +118,14 @@ def run_start(record: RunRecord) -> tuple[float, float]:
     return iteration, seconds
 
 
-def table_rows(columns: Columns, names: Mapping[str, str]) -> list[dict[str, Any]]:
+def table_rows(curve: Curve, names: Mapping[str, str]) -> list[dict[str, Any]]:
     """Return a row for each iteration of a run: the run, its parent, and all values; `names` maps to printed names."""
-    record, step_seconds = columns.record, columns.of("step_seconds")
+    record, step_seconds = curve.record, curve.of("step_seconds")
     name = names.get(record.name) or record.name
     parent = "" if record.parent is None else names.get(record.parent.name) or record.parent.name
     return [
         {"run": name, "branch_of": parent, **row, "step_seconds": seconds if at else None}
-        for at, (row, seconds) in enumerate(zip(record.rows, step_seconds.tolist(), strict=False))
+        for at, (row, seconds) in enumerate(zip(curve.rows, step_seconds.tolist(), strict=True))
     ]
 
 
@@ -181,7 +133,3 @@ def _balance_starts(rows: Sequence[Mapping[str, Any]]) -> list[int]:
     """Return the iterations at which a stage begins that raises the minimum scaled Jacobian and q(H)."""
     in_balance = [balances(row) for row in rows]
     return [at for at in range(1, len(in_balance)) if in_balance[at] and not in_balance[at - 1]]
-
-
-def _number(value: object) -> float:
-    return float(value) if isinstance(value, (int, float)) and np.isfinite(value) else np.nan

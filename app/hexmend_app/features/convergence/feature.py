@@ -11,7 +11,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
 from hexmend_app.features.convergence.charts import CHARTS, ChartSettings
-from hexmend_app.features.convergence.curves import Columns, Curve, axis_title, described, run_start, table_rows
+from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence
@@ -38,7 +38,6 @@ class FeatureConvergence(Feature):
         self._document, self._run = session.document, session.run
         timeline = self._timeline = session.timeline
         self._history = session.history
-        self._columns: dict[RunRecord, Columns] = {}
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved figure
         panel = self.panel = ConvergencePanel()
@@ -91,16 +90,12 @@ class FeatureConvergence(Feature):
         self._show()
 
     def _show(self) -> None:
-        records = self._history.records
-        self._columns = {record: self._columns.get(record) or Columns(record) for record in records}
-        for record in records:
-            self._columns[record].grow()
-        self.panel.set_curves([self._curve(record) for record in records if len(self._columns[record])])
+        self.panel.set_curves([self._curve(record) for record in self._history.records if record.rows])
         self._mark()
 
     def _curve(self, record: RunRecord) -> Curve:
         return Curve(
-            self._columns[record],
+            record,
             record.slot,
             (0.0, 0.0) if self.panel.head.from_zero.isChecked() else run_start(record),
             shown=record.plotted,
@@ -139,7 +134,7 @@ class FeatureConvergence(Feature):
     def _write(self, path: Path, style: ChartStyle) -> None:
         charts = self._described()
         if suffix_for(path, "a chart", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
-            write_csv(path, [row for columns in self._columns.values() for row in table_rows(columns, style.names)])
+            write_csv(path, [row for curve in self.panel.curves for row in table_rows(curve, style.names)])
         else:
             write_chart(path, charts.draw, style)
 

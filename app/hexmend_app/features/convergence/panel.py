@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
-from PySide6.QtCore import QPointF, QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import Curve, axis_title
 from hexmend_app.features.convergence.head import ConvergenceHead
-from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_list import RunList
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
@@ -62,7 +60,6 @@ class ConvergencePanel(QWidget):
         self.plots = {key: ConvergencePlot(chart) for key, chart in CHARTS.items()}
         for plot in self.plots.values():
             plot.picked.connect(self.picked)
-            plot.hovered.connect(partial(self._on_hovered, plot))
         self.head, self.runs = ConvergenceHead(), RunList()
         self.head.charts_changed.connect(self._redraw)
         self.head.axes_changed.connect(self._redraw)
@@ -136,7 +133,7 @@ class ConvergencePanel(QWidget):
 
     def _span(self) -> tuple[float, float]:
         """Return the ends of the shared axis; in steps during a run, so that it changes seldom."""
-        positions = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
+        positions = [curve.x(self.by_time) for curve in self.curves if curve.shown]
         low = min((float(x[0]) for x in positions), default=0.0)
         high = max((float(x[-1]) for x in positions), default=1.0)
         high = max(high, low + (1e-3 if self.by_time else _LEAST_ITERATIONS))
@@ -150,16 +147,7 @@ class ConvergencePanel(QWidget):
         if self._shown is not None:
             record, number = self._shown
             curve = next((curve for curve in self.curves if curve.record is record and curve.shown), None)
-            if curve is not None and number < len(curve.columns):
+            if curve is not None and number < len(curve.rows):
                 x = float(curve.x(self.by_time)[number])
         for plot in self.drawn:
             plot.mark(x)
-
-    # Tooltips
-
-    def _on_hovered(self, plot: ConvergencePlot, place: QPointF | None) -> None:
-        text = ""
-        if place is not None:
-            text = describe(plot.chart, self.curves, plot.view.mapSceneToView(place).x(), self.by_time)
-        at = plot.plot.mapToGlobal(plot.plot.mapFromScene(place)) if place is not None else plot.mapToGlobal(plot.pos())
-        QToolTip.showText(at, text, plot.plot)

@@ -28,31 +28,14 @@ def reason_if_blank(chart: Chart, curves: Sequence[Curve]) -> str:
     shown = [curve for curve in curves if curve.shown]
     if not shown:
         return tr("No run selected.")
-    if any(_reported(chart, curve) for curve in shown):
+    if any(np.isfinite(curve.of(quantity.key)).any() for curve in shown for quantity in chart.quantities):
         return ""
-    inverted = [int(curve.columns.of("inverted")[-1]) for curve in shown if _infinite(chart, curve)]
-    if inverted:
-        return tr("The objective is infinite: {hexes}.", hexes=counted(inverted[-1], "inverted hex"))
-    return (
-        tr("The method does not report its {title}.", title=tr(chart.title))
-        if len(shown) == 1
-        else tr("No run reports its {title}.", title=tr(chart.title))
-    )
-
-
-def _reported(chart: Chart, curve: Curve) -> bool:
-    """Return True if a run reports a finite value, or has too few iterations to tell."""
-    if _infinite(chart, curve):
-        return False
-    return any(curve.columns.reports(quantity.key) for quantity in chart.quantities)
-
-
-def _infinite(chart: Chart, curve: Curve) -> bool:
-    """Return True if a run has no objective because of inverted hexes."""
-    columns = curve.columns
-    if chart.key != "objective" or not len(columns) or np.isfinite(columns.of("objective")).any():
-        return False
-    return bool(columns.of("inverted")[-1] > 0)
+    inverted = int(shown[-1].of("inverted")[-1])
+    if chart.key == "objective" and inverted:
+        return tr("The objective is infinite: {hexes}.", hexes=counted(inverted, "inverted hex"))
+    if any(len(curve.rows) < 2 for curve in shown):
+        return ""
+    return tr("No run reports its {title}.", title=tr(chart.title))
 
 
 def _extends_to(curve: Curve, x: float, by_time: bool) -> bool:
@@ -64,17 +47,17 @@ def _extends_to(curve: Curve, x: float, by_time: bool) -> bool:
 def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     values = []
     for quantity in chart.quantities:
-        value = curve.columns.of(quantity.key)[number]
+        value = curve.of(quantity.key)[number]
         if np.isfinite(value):
             text = figure(int(value)) if chart.whole else _significant(float(value))
         else:
             text = tr("infinite") if quantity.key == "objective" else tr("not reported")
-        row = curve.record.rows[number] if quantity.key == "objective" else {}
+        row = curve.rows[number] if quantity.key == "objective" else {}
         formula = row.get("objective_formula")
         values.append(f"{tr(quantity.label)} {formula} {text}" if formula else f"{tr(quantity.label)} {text}")
         if balances(row):
             values.append(tr("may rise while the minima are raised"))
-    seconds = tr(" at {seconds:.3g} s", seconds=curve.columns.seconds[number]) if by_time else ""
+    seconds = tr(" at {seconds:.3g} s", seconds=curve.of("seconds")[number]) if by_time else ""
     pause = curve.record.pauses.get(number)
     paused = "\n    " + tr("paused: {reason}", reason=pause) if pause else ""
     return f"{_named(curve.record, number)}{seconds}: {', '.join(values)}{paused}"

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Sequence
-
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
 
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.features import dihedral_angles
@@ -51,39 +50,14 @@ def edge_path(mesh: Mesh, start: int, end: int) -> tuple[int, ...]:
     points = mesh.surface_points
     length = np.linalg.norm(points[edges.nodes[:, 1]] - points[edges.nodes[:, 0]], axis=1)
     weight = length / (1 + dihedral_angles(points, edges) / _CREASE)
-    before = _shortest(_neighbours(edges.nodes, weight, mesh.n_nodes), start, end)
-    if end != start and end not in before:
+    graph = csr_array((weight, edges.nodes.T), shape=(mesh.n_nodes, mesh.n_nodes))
+    _, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+    if end != start and before[end] < 0:
         raise MeshError(f"no edges of the boundary join the nodes {start} and {end}: choose two nodes of one surface")
     chain = [end]
     while chain[-1] != start:
-        chain.append(before[chain[-1]])
+        chain.append(int(before[chain[-1]]))
     return tuple(reversed(chain))
-
-
-def _neighbours(edges: np.ndarray, weight: np.ndarray, n: int) -> tuple[list[int], list[int], list[float]]:
-    """Rows of the neighbours of each node: starts (n + 1,), neighbours and weights of the edges to them."""
-    nodes, others = np.concatenate([edges, edges[:, ::-1]]).T
-    order = np.argsort(nodes, kind="stable")
-    starts = np.searchsorted(nodes[order], np.arange(n + 1))
-    return starts.tolist(), others[order].tolist(), np.concatenate([weight, weight])[order].tolist()
-
-
-def _shortest(rows: tuple[Sequence[int], Sequence[int], Sequence[float]], start: int, end: int) -> dict[int, int]:
-    """Return the predecessor of each node that is reached before `end`, by the algorithm of Dijkstra."""
-    starts, others, weights = rows
-    distance, before, waiting = {start: 0.0}, {}, [(0.0, start)]
-    while waiting:
-        so_far, node = heapq.heappop(waiting)
-        if node == end:
-            break
-        if so_far > distance[node]:
-            continue
-        for at in range(starts[node], starts[node + 1]):
-            total = so_far + weights[at]
-            if total < distance.get(others[at], np.inf):
-                distance[others[at]], before[others[at]] = total, node
-                heapq.heappush(waiting, (total, others[at]))
-    return before
 
 
 def curve_through(mesh: Mesh, node: int) -> tuple[int, ...]:

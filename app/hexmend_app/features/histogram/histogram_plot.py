@@ -15,51 +15,7 @@ from hexmend_app.theme.palette import BLUE, INVERTED_TEXT, KEPT
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.plots import calm_plot
-
-
-class BrushView(pg.ViewBox):
-    """View that announces drags and clicks by their positions on the plot.
-
-    Signals
-    -------
-    brushed(start, end)
-        The user drags from one position to another.
-    clicked(x, y)
-    cleared
-        The user double-clicked.
-    """
-
-    brushed = Signal(float, float)
-    clicked = Signal(float, float)
-    cleared = Signal()
-
-    def __init__(self):
-        super().__init__(enableMenu=False, defaultPadding=0)
-        self.setCursor(Qt.CursorShape.CrossCursor)
-
-    def mouseDragEvent(self, ev, axis=None) -> None:
-        """Announce a drag."""
-        if ev.button() != Qt.MouseButton.LeftButton:
-            ev.ignore()
-            return
-        ev.accept()
-        self.brushed.emit(self.mapToView(ev.buttonDownPos()).x(), self.mapToView(ev.pos()).x())
-
-    def mouseClickEvent(self, ev) -> None:
-        """Announce a click or double click."""
-        if ev.button() != Qt.MouseButton.LeftButton:
-            return
-        ev.accept()
-        if ev.double():
-            self.cleared.emit()
-        else:
-            place = self.mapToView(ev.pos())
-            self.clicked.emit(place.x(), place.y())
-
-    def wheelEvent(self, ev, axis=None) -> None:
-        """Leave the wheel to the parent, which scrolls."""
-        ev.ignore()
+from hexmend_app.widgets.plots import MouseView, calm_plot
 
 
 class HistogramPlot(QWidget):
@@ -68,7 +24,7 @@ class HistogramPlot(QWidget):
     Attributes
     ----------
     plot : pyqtgraph.PlotWidget
-    view : BrushView
+    view : MouseView
     region : pyqtgraph.LinearRegionItem
         Range that is shown; the mouse moves it, and its ends.
     histogram : Histogram or None
@@ -84,7 +40,8 @@ class HistogramPlot(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.view = BrushView()
+        self.view = MouseView()
+        self.view.setCursor(Qt.CursorShape.CrossCursor)
         self.plot = calm_plot(self.view)
         self.plot.setMinimumHeight(110)
         self.plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 2)
@@ -102,7 +59,7 @@ class HistogramPlot(QWidget):
         for item in (*self._bars, *self._lines, self.number, self.region):
             self.plot.addItem(item, ignoreBounds=True)
         self.region.sigRegionChanged.connect(lambda: self.brushed.emit(*self.region.getRegion()))
-        self.view.brushed.connect(lambda start, end: self.brushed.emit(*sorted((start, end))))
+        self.view.dragged.connect(lambda start, end, _: self.brushed.emit(*sorted((start.x(), end.x()))))
         fill(QVBoxLayout(self), self.plot, margins=(0, 0, 0, 0))
         on_theme_change(self, self._paint)
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, Signal
-from PySide6.QtWidgets import QToolTip, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.histogram.distributions import Shown, ShownHistogram, bin_colours, range_summary
 from hexmend_app.features.histogram.head import HistogramHead
@@ -21,6 +21,7 @@ from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.plots import show_tooltips
 
 _HELP = (
     "Number of hexes by value. Inverted hexes have a separate column at the left, for every metric. Drag over the plot "
@@ -72,9 +73,8 @@ class QualityHistogram(QWidget):
         self.plot.plot.setAccessibleDescription(tr(_HELP))
         self.plot.plot.setWhatsThis(tr(_HELP))
         self.plot.brushed.connect(lambda left, right: self._choose(self.axis.range(left, right)))
-        self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.clicked.connect(self._on_clicked)
-        self.plot.plot.scene().sigMouseMoved.connect(self._hover)
+        show_tooltips(self.plot.plot, lambda place: self.shown.describe_at(place.x()))
         self.summary = ElidingLabel()  # one line: a second line would move the plot while a range is brushed
         self.summary.setFont(tabular(smaller(self.summary.font())))
         tint(self.summary, MUTED)
@@ -145,13 +145,15 @@ class QualityHistogram(QWidget):
         self._range = range if range is not None and range.metric == self._metric else None
         self._show_range()
 
-    def _on_clicked(self, x: float, y: float) -> None:
-        """Show only the hexes of the bar at a position of the plot."""
-        column = self.plot.histogram.column
-        if column is not None and column[0] <= x <= column[1]:
+    def _on_clicked(self, place: QPointF, double: bool) -> None:
+        """Show only the hexes of the bar at a position of the plot; after a double click all."""
+        x, column = place.x(), self.plot.histogram.column
+        if double:
+            self._choose(None)
+        elif column is not None and column[0] <= x <= column[1]:
             if self._current is not None and self._current.inverted:
                 self.inverted_requested.emit()
-        elif 0 <= x < self.axis.bins and y <= self.plot.height_at(x):
+        elif 0 <= x < self.axis.bins and place.y() <= self.plot.height_at(x):
             self._choose(self.axis.bin_range(int(x)))
 
     def _choose(self, range: Show | None) -> None:
@@ -185,13 +187,3 @@ class QualityHistogram(QWidget):
         inverted = 0 if self._current is None else self._current.inverted
         self.plot.draw(shown.describe(colours=colours), inverted)
         self._show_range()
-
-    def describe_at(self, x: float) -> str:
-        """Describe the bin at a position of the plot."""
-        return self.shown.describe_at(x)
-
-    def _hover(self, position: QPointF) -> None:
-        view, plot = self.plot.view, self.plot.plot
-        inside = view.sceneBoundingRect().contains(position)
-        text = self.describe_at(view.mapSceneToView(position).x()) if inside else ""
-        QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(position)), text, plot)

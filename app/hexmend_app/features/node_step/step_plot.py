@@ -29,8 +29,6 @@ _NUMBER_SPACING = 0.045
 #: Positions of a number next to its dot, as anchors of pyqtgraph; the right is preferred, where no curve crosses it.
 _RIGHT, _ABOVE, _BELOW = (-0.35, 0.4), (0.5, 1.1), (0.5, -0.15)
 
-_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
 
 class NodePlot(QWidget):
     """Plots the energy along the direction of one step.
@@ -47,7 +45,7 @@ class NodePlot(QWidget):
         self._plot.getPlotItem().setContentsMargins(0, 4, 8, 0)
         for name, text in (("bottom", "α"), ("left", tr("Δ energy"))):
             self._plot.getAxis(name).setLabel(text)
-            self._plot.getAxis(name).label.setFont(smaller(self.font()))
+        self._plot.getAxis("left").enableAutoSIPrefix(True)  # writes the power of ten into the label
         self._plot.getAxis("left").setWidth(self.fontMetrics().horizontalAdvance("−00.00") + 26)
         self._plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 4)
         self._curve, self._bound = self._plot.plot(), self._plot.plot()
@@ -71,7 +69,6 @@ class NodePlot(QWidget):
         bottom, top = extent(step)
         self._plot.setXRange(0, alpha[-1], padding=0.02)
         self._plot.setYRange(bottom, top, padding=0)
-        self._show_power(max(abs(bottom), top))
         self._curve.setData(alpha, np.minimum(change, 2 * top - bottom), pen=pg.mkPen(str(SEARCH), width=2))
         if step.trials:
             slope = (step.trials[0].bound - step.energy) / step.trials[0].alpha
@@ -87,13 +84,6 @@ class NodePlot(QWidget):
         """True if the step has a curve to plot that is more than rounding."""
         step = self._step
         return step is not None and math.isfinite(step.energy) and not step.curve_is_rounding
-
-    def _show_power(self, largest: float) -> None:
-        """Write the power of ten of large and small values in the label of the axis."""
-        power = 0 if largest == 0 or 1e-2 <= largest < 1e3 else math.floor(math.log10(largest))
-        axis = self._plot.getAxis("left")
-        axis.setScale(10.0**-power)
-        axis.setLabel(tr("Δ energy") + (f" [10{str(power).translate(_SUPERSCRIPT)}]" if power else ""))
 
     def _draw_dots(self, step: NodeStep, bottom: float, top: float, right: float) -> None:
         spots = [_spot(0.0, 0.0, TEXT, "o", 0)]

@@ -11,7 +11,7 @@ from benchmarks.window.windows import end_run
 from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
-from hexmend_app.features.convergence.curves import Columns, Curve, run_start
+from hexmend_app.features.convergence.curves import Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.point_texts import describe, reason_if_blank
 from hexmend_app.state.mesh.document import State
@@ -43,9 +43,7 @@ def record(name, count, parent=None, **more):
 
 
 def curve(record, slot=0, start=(0.0, 0.0), shown=True, current=True, running=False):
-    columns = Columns(record)
-    columns.grow()
-    return Curve(columns, slot, start, shown, current, running)
+    return Curve(record, slot, start, shown, current, running)
 
 
 TRUNK = record("getme", 21)
@@ -113,7 +111,7 @@ def test_every_chart_can_be_drawn_alone(panel):
 def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
     emitted = []
     panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
-    y = panel.plots["quality"].heights(BOTH[1].columns.of("q_min"))[5]
+    y = panel.plots["quality"].heights(BOTH[1].of("q_min"))[5]
     for where in (("objective", 4.2), ("quality", 13.0, y)):
         widget, at = place(panel, *where)
         QTest.mouseClick(widget, LEFT, pos=at)
@@ -242,7 +240,7 @@ def test_charts_report_an_infinite_objective(inverted, text):
 
 
 def test_reasons_are_unreported_quantities_and_deselected_runs():
-    assert reason_if_blank(DELTA, [of(0)]) == "The method does not report its delta."
+    assert reason_if_blank(DELTA, [of(0)]) == "No run reports its delta."
     assert reason_if_blank(DELTA, [of(0), of(0)]) == "No run reports its delta."
     assert reason_if_blank(DELTA, [of(0, rows=1)]) == ""  # it may report it later
     assert reason_if_blank(OBJECTIVE, [of(0, shown=False)]) == "No run selected."
@@ -277,14 +275,12 @@ def recorded(method, iterations=6, parent=None):
 
 
 @pytest.mark.parametrize("method", ["laplacian", "local-sd", "global-nr", "mend"])
-def test_columns_have_the_values_of_the_rows_and_nan_elsewhere(method):
+def test_curves_have_the_values_of_the_rows_and_nan_elsewhere(method):
     record = recorded(method)
-    columns = Columns(record)
-    columns.grow()
-    assert len(columns) == len(record.rows)
+    drawn = Curve(record, 0)
     for chart in CHARTS.values():
         for key in (one.key for one in chart.quantities):
-            found = columns.of(key)
+            found = drawn.of(key)
             if key == "step_seconds":
                 expected = [None, *np.diff([row["seconds"] for row in record.rows])]
             else:
@@ -292,21 +288,7 @@ def test_columns_have_the_values_of_the_rows_and_nan_elsewhere(method):
             if key == "largest_move":
                 expected[0] = None
             np.testing.assert_array_equal(found, [np.nan if one is None else one for one in expected])
-            assert columns.reports(key) == np.isfinite(found).any()
-    assert columns.reports("gradient_norm") == (method in ("global-nr", "mend"))
-
-
-def test_columns_grow_with_the_run_however_long_it_is():
-    record = RunRecord("a", "A", SCRAMBLED, None)
-    columns = Columns(record)
-    for length in (1, 63, 64, 65, 500):
-        while len(record.rows) < length:
-            record.rows.append({"iteration": len(record.rows), "seconds": 0.5 * len(record.rows), "q_min": 0.25})
-        columns.grow()
-        assert len(columns) == length
-        np.testing.assert_array_equal(columns.seconds, 0.5 * np.arange(length))
-        assert (columns.of("q_min") == 0.25).all()
-        assert np.isnan(columns.of("delta")).all()
+    assert np.isfinite(drawn.of("gradient_norm")).any() == (method in ("global-nr", "mend"))
 
 
 def test_a_branch_begins_where_it_left_its_parent():
@@ -316,9 +298,7 @@ def test_a_branch_begins_where_it_left_its_parent():
     assert run_start(trunk) == (0, 0)
     assert run_start(twig)[0] == 5
     assert run_start(twig)[1] == trunk.rows[3]["seconds"] + branch.rows[2]["seconds"]
-    columns = Columns(twig)
-    columns.grow()
-    curve = Curve(columns, 0, run_start(twig), True, True, False)
+    curve = Curve(twig, 0, run_start(twig))
     assert curve.x(by_time=False).tolist() == [5, 6, 7]
     assert curve.nearest(5.6, by_time=False) == 1
     assert curve.nearest(-3, by_time=False) == 0
@@ -348,7 +328,7 @@ def click_at(docked, key, x):
 @pytest.mark.slow
 def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, qtbot, docked):
     record = run(window, qtbot)
-    assert len(docked.curves[0].columns) == 9
+    assert len(docked.curves[0].rows) == 9
     click_at(docked, "inverted", 3)
     qtbot.waitUntil(lambda: window.session.timeline.shown_iteration.number == 3)
     window.refresh()
@@ -384,7 +364,7 @@ def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot
 def test_charts_are_redrawn_during_a_run_by_a_timer(window, qtbot, docked):
     drawn = []
     original = docked.set_curves
-    docked.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
+    docked.set_curves = lambda curves: (drawn.append(len(curves[0].rows) if curves else 0), original(curves))
     choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
     click_until(window, qtbot, "Run", Phase.RUNNING)
     qtbot.waitUntil(lambda: len(drawn) > 0)

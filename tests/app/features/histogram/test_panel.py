@@ -33,13 +33,13 @@ def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
     start = np.count_nonzero((q >= low) & (q < high) & ~inverted)
     now = np.count_nonzero((q**0.5 >= low) & (q**0.5 < high))
     assert start != now
-    text = histogram.describe_at(10.5)
+    text = histogram.shown.describe_at(10.5)
     assert f"{axis.text(low)} – {axis.text(high)}" in text
     assert f"at the start: {start} hex" in text
     assert f"now: {now} hex" in text
     column = sum(histogram.plot.histogram.column) / 2
-    assert histogram.describe_at(column) == f"inverted\nnow: 0 hexes\nat the start: {inverted.sum()} hexes"
-    assert histogram.describe_at(-0.5) == histogram.describe_at(50.5) == ""
+    assert histogram.shown.describe_at(column) == f"inverted\nnow: 0 hexes\nat the start: {inverted.sum()} hexes"
+    assert histogram.shown.describe_at(-0.5) == histogram.shown.describe_at(50.5) == ""
 
 
 def test_the_number_of_bins_is_set_in_the_menu(histogram):
@@ -105,12 +105,12 @@ def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(hist
     histogram.show_distributions(None, Distribution.of(*data))
     high = histogram.axis.edges[21]
     share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < high))) / 2000
-    text = histogram.describe_at(20.5)
+    text = histogram.shown.describe_at(20.5)
     assert text.startswith(f"inverted, or q(H) up to {histogram.axis.text(high)}\n")
     assert f"now: {share:.4g} %, " in text
-    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(49.5)
+    assert "now: 100 %, 2,000 hexes" in histogram.shown.describe_at(49.5)
     histogram.head.cumulative.trigger()
-    assert not histogram.describe_at(20.5).startswith("inverted, or")
+    assert not histogram.shown.describe_at(20.5).startswith("inverted, or")
 
 
 def test_another_metric_removes_all_distributions_and_the_range(histogram):
