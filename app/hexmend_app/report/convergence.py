@@ -40,8 +40,8 @@ class Line:
 
     label: str
     colour: str
-    x: Sequence[float]
-    y: Sequence[float]
+    x: Sequence[float] | np.ndarray
+    y: Sequence[float] | np.ndarray
     dash: str = "-"
     strong: bool = False
     part: str = ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -155,11 +155,11 @@ def draw_histogram(axes: Axes, histogram: Histogram, name: Callable[[str], str] 
         The line of each series, and its text in a legend.
     """
     (floor, top), column = histogram.heights, histogram.column
-    named = []
+    named: list[tuple[Artist, str]] = []
     for one in histogram.series:
         edges, heights = histogram.steps(one)
         if one.filled:
-            bars = {"align": "edge", "bottom": floor, "alpha": 1.0 if one.colours else 0.35}
+            bars: dict[str, Any] = {"align": "edge", "bottom": floor, "alpha": 1.0 if one.colours else 0.35}
             above = np.maximum(heights - floor, 0)
             axes.bar(edges[:-1], above, np.diff(edges), color=histogram.step_colours(one), **bars)
         line = axes.stairs(heights, edges, baseline=floor, color=one.colour, linewidth=1.0 if one.filled else 1.6)

@@ -19,12 +19,11 @@ class MouseView(pg.ViewBox):
     Signals
     -------
     clicked(place, double)
-    dragged(start, place, begins)
-        The user drags; `begins` is True at the begin of the drag.
+    dragged(start, place)
     """
 
     clicked = Signal(QPointF, bool)
-    dragged = Signal(QPointF, QPointF, bool)
+    dragged = Signal(QPointF, QPointF)
 
     def __init__(self):
         super().__init__(enableMenu=False, defaultPadding=0)
@@ -35,7 +34,7 @@ class MouseView(pg.ViewBox):
             ev.ignore()
             return
         ev.accept()
-        self.dragged.emit(self.mapToView(ev.buttonDownPos()), self.mapToView(ev.pos()), ev.isStart())
+        self.dragged.emit(self.mapToView(ev.buttonDownPos()), self.mapToView(ev.pos()))
 
     def mouseClickEvent(self, ev) -> None:
         """Announce a click."""

@@ -43,28 +43,26 @@ class Chart:
         return " ".join(one.help for one in self.quantities)
 
 
-def _single(key: str, log: bool = False, whole: bool = False) -> Chart:
-    return Chart(key, _QUANTITIES[key].label, (_QUANTITIES[key],), log, whole)
-
-
-def _several(key: str, title: str, keys: tuple[str, ...], log: bool = False, whole: bool = False) -> Chart:
-    return Chart(key, title, tuple(_QUANTITIES[one] for one in keys), log, whole)
+def _chart(key: str, *quantities: str, title: str = "", log: bool = False, whole: bool = False) -> Chart:
+    """Return a chart of some quantities; by default of the one whose key it has."""
+    shown = tuple(_QUANTITIES[one] for one in quantities or (key,))
+    return Chart(key, title or shown[0].label, shown, log, whole)
 
 
 #: Charts by key, in menu order.
 CHARTS: dict[str, Chart] = {
     chart.key: chart
     for chart in (
-        _single("objective", log=True),
-        _several("quality", "quality", ("q_min", "q_mean", "scaled_jacobian_min")),
-        _several("inverted", "invalid hexes", ("inverted", "invalid"), log=True, whole=True),
-        _single("largest_move", log=True),
-        _single("gradient_norm", log=True),
-        _single("step_length", log=True),
-        _single("solver_iterations", whole=True),
-        _single("backtracks", whole=True),
-        _single("step_seconds", log=True),
-        _single("delta", log=True),
+        _chart("objective", log=True),
+        _chart("quality", "q_min", "q_mean", "scaled_jacobian_min", title="quality"),
+        _chart("inverted", "inverted", "invalid", title="invalid hexes", log=True, whole=True),
+        _chart("largest_move", log=True),
+        _chart("gradient_norm", log=True),
+        _chart("step_length", log=True),
+        _chart("solver_iterations", whole=True),
+        _chart("backtracks", whole=True),
+        _chart("step_seconds", log=True),
+        _chart("delta", log=True),
     )
 }
 

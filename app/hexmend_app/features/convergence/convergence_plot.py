@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 import pyqtgraph as pg
+from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -15,7 +17,6 @@ from hexmend_app.features.convergence.charts import Chart
 from hexmend_app.features.convergence.curves import Curve, described
 from hexmend_app.features.convergence.point_texts import describe, reason_if_blank
 from hexmend_app.report.convergence import DASHES, Line, LineChart
-from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import MUTED, TEXT
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller, tint
@@ -26,8 +27,8 @@ from hexmend_app.widgets.plots import MouseView, calm_plot, log_ticks, show_tool
 _STYLES = dict(zip(DASHES, (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine), strict=True))
 _DASHES = ("—", "- -", "···")
 
-#: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
-_PICK_DISTANCE = 12.0
+#: Width of the strip along a curve in which a click selects it, in pixels; elsewhere the current run is selected.
+_PICK_WIDTH = 8
 
 _MIN_HEIGHT = 80
 
@@ -91,13 +92,13 @@ class ConvergencePlot(QWidget):
         self.marker.setZValue(20)
         self.plot.addItem(self.marker, ignoreBounds=True)
         self.lines: list[pg.PlotDataItem] = []
+        self._names: list[str] = []  # of the runs of the lines
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
-        self._dragged_record: RunRecord | None = None
         self.zero: float | None = None
         fill(QVBoxLayout(self), self.title, (self.plot, 1), margins=(0, 0, 0, 0), spacing=0)
-        self.view.clicked.connect(lambda place, _: self._on_picked(place, True))
-        self.view.dragged.connect(lambda _, place, begins: self._on_picked(place, begins))
+        self.view.clicked.connect(lambda place, _: self._on_elsewhere(place))
+        self.view.dragged.connect(lambda _, place: self._on_elsewhere(place))
         show_tooltips(self.plot, lambda place: describe(self.chart, self._curves, place.x(), self._by_time))
         on_theme_change(self, self._paint)
 
@@ -114,13 +115,16 @@ class ConvergencePlot(QWidget):
         self._fit(chart)
         while len(self.lines) < len(chart.lines):
             line = pg.PlotDataItem(connect="finite", autoDownsample=True, downsampleMethod="peak", symbolPen=None)
-            line.scatter.setEnabled(False)  # clicks on markers go to the chart
+            line.scatter.setEnabled(False)  # clicks on markers go to the line
+            line.setCurveClickable(True, width=_PICK_WIDTH)
+            line.sigClicked.connect(partial(self._on_line_clicked, len(self.lines)))
             self.lines.append(line)
             self.plot.addItem(line, ignoreBounds=True)
         while len(self.lines) > len(chart.lines):
             self.plot.removeItem(self.lines.pop())
         for item, line in zip(self.lines, chart.lines, strict=True):
             self._draw_line(item, line)
+        self._names = [line.label for line in chart.lines]
         self._blank.setText(reason_if_blank(self.chart, curves))
 
     def _draw_line(self, item: pg.PlotDataItem, line: Line) -> None:
@@ -136,20 +140,16 @@ class ConvergencePlot(QWidget):
         )
         item.setZValue(10 if line.strong else 0)
 
-    def heights(self, values: np.ndarray) -> np.ndarray:
+    def heights(self, values: Sequence[float] | np.ndarray) -> np.ndarray:
         """Return the positions of values on the vertical axis, (k,) float64."""
-        if not self.is_log:
+        values = np.asarray(values)
+        if not (self._log and self.chart.log):
             return values
         with np.errstate(divide="ignore", invalid="ignore"):
             heights = np.log10(values)
         if self.zero is not None:
             heights[values <= 0] = self.zero
         return heights
-
-    @property
-    def is_log(self) -> bool:
-        """Return True if the vertical axis is logarithmic."""
-        return self._log and self.chart.log
 
     def mark(self, x: float | None) -> None:
         """Move the marker of the iteration shown; None hides it."""
@@ -179,29 +179,14 @@ class ConvergencePlot(QWidget):
 
     # Mouse
 
-    def at(self, point: QPointF) -> tuple[Curve, int] | None:
-        """Return the run and iteration at a position of the chart, or None if it is empty."""
-        if not self._curves:
-            return None
-        pixel_width, pixel_height = self.view.viewPixelSize()
-        best, smallest = None, _PICK_DISTANCE
-        for curve in self._curves:
-            number = curve.nearest(point.x(), self._by_time)
-            for quantity in self.chart.quantities:
-                y = self.heights(curve.of(quantity.key)[number : number + 1])[0]
-                x = curve.x(self._by_time)[number]
-                distance = math.hypot((x - point.x()) / pixel_width, (y - point.y()) / pixel_height)
-                if distance < smallest:
-                    best, smallest = (curve, number), distance
-        if best is None:
-            curve = next((curve for curve in self._curves if curve.current), self._curves[0])
-            best = curve, curve.nearest(point.x(), self._by_time)
-        return best
+    def _on_line_clicked(self, at: int, item: pg.PlotCurveItem, event: MouseClickEvent) -> None:
+        name = self._names[at]
+        self._pick(next(curve for curve in self._curves if curve.record.name == name), event.pos())
 
-    def _on_picked(self, place: QPointF, starts: bool) -> None:
-        if starts:
-            picked = self.at(place)
-            self._dragged_record = None if picked is None else picked[0].record
-        dragged = next((curve for curve in self._curves if curve.record is self._dragged_record), None)
-        if dragged is not None:
-            self.picked.emit(dragged.record, dragged.nearest(place.x(), self._by_time))
+    def _on_elsewhere(self, place: QPointF) -> None:
+        """Go to an iteration of the current run, or of the oldest."""
+        if self._curves:
+            self._pick(next((curve for curve in self._curves if curve.current), self._curves[0]), place)
+
+    def _pick(self, curve: Curve, place: QPointF) -> None:
+        self.picked.emit(curve.record, curve.nearest(place.x(), self._by_time))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.features import dihedral_angles
@@ -43,6 +41,9 @@ def edge_path(mesh: Mesh, start: int, end: int) -> tuple[int, ...]:
     >>> len(edge_path(cube, corner, other))
     4
     """
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import dijkstra
+
     for node in (start, end):
         if not (0 <= node < mesh.n_nodes and mesh.topology.boundary[node]):
             raise MeshError(f"node {node} (counted from 0) is not on the boundary: expected a node of a boundary face")

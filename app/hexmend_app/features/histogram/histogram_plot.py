@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import zip_longest
 
 import numpy as np
@@ -59,7 +60,7 @@ class HistogramPlot(QWidget):
         for item in (*self._bars, *self._lines, self.number, self.region):
             self.plot.addItem(item, ignoreBounds=True)
         self.region.sigRegionChanged.connect(lambda: self.brushed.emit(*self.region.getRegion()))
-        self.view.dragged.connect(lambda start, end, _: self.brushed.emit(*sorted((start.x(), end.x()))))
+        self.view.dragged.connect(lambda start, end: self.brushed.emit(*sorted((start.x(), end.x()))))
         fill(QVBoxLayout(self), self.plot, margins=(0, 0, 0, 0))
         on_theme_change(self, self._paint)
 
@@ -102,7 +103,7 @@ class HistogramPlot(QWidget):
     def _ends(self) -> np.ndarray:
         return self._height(self.histogram.heights)
 
-    def _height(self, counts: np.ndarray | tuple[float, ...] | list[float]) -> np.ndarray:
+    def _height(self, counts: Sequence[float] | np.ndarray) -> np.ndarray:
         """Return the heights of counts on the plot: their logarithms on a logarithmic axis."""
         counts = np.asarray(counts, dtype=float)
         return np.log10(np.maximum(counts, self.histogram.heights[0])) if self.histogram.log else counts

@@ -172,7 +172,8 @@ def resolve(
     if colours.reverse != (better(colours.metric) < 0):
         table = table[::-1]
     title, chosen = title or colour_quantity(colours.metric).title, values[np.isfinite(values) & ~invalid]
-    beyond = bool((chosen < ends[0]).any()), bool((chosen > ends[1]).any())
+    least, most = colour_quantity(colours.metric).full_range  # exceeded only by rounding
+    beyond = bool(ends[0] > least and (chosen < ends[0]).any()), bool(ends[1] < most and (chosen > ends[1]).any())
     return Colouring(title, *ends, table, _CHANGED if change else INVALID_COLOURS, beyond=beyond)
 
 

@@ -111,11 +111,12 @@ def test_every_chart_can_be_drawn_alone(panel):
 def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
     emitted = []
     panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
-    y = panel.plots["quality"].heights(BOTH[1].of("q_min"))[5]
-    for where in (("objective", 4.2), ("quality", 13.0, y)):
+    panel.resize(640, 700)
+    turn()
+    for where in (("objective", 4.2), ("quality", 16.0, BOTH[1].of("q_min")[8])):
         widget, at = place(panel, *where)
         QTest.mouseClick(widget, LEFT, pos=at)
-    assert emitted == [("getme", 4), ("local-sd", 5)]
+    assert emitted == [("getme", 4), ("local-sd", 8)]
 
 
 def test_a_drag_selects_iterations_of_one_run(panel):

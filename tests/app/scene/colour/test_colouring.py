@@ -128,6 +128,8 @@ def test_a_few_far_values_do_not_stretch_a_fitted_range():
     assert got.label(got.low) == "1"
     few = resolve(Colours(metric="condition", range=Range.FITTED), values[:996], np.zeros(996, bool))
     assert (few.low, few.high, few.beyond) == (1.0, 2.0, (False, False))
+    rounded = resolve(Colours("q"), np.array([0.5, np.nextafter(1, 2)]), np.zeros(2, bool))
+    assert rounded.label(rounded.high) == "1"  # q is at most 1
 
 
 # Colours of materials in the mesh, in legends of pages and films, and in the list of the window.
