@@ -132,7 +132,7 @@ def write_chart(path: Path, draw: Draw, style: ChartStyle | None = None) -> None
     HexmendError
         For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
-    check_figure(path)
+    suffix_for(path, "a figure", FIGURE_SUFFIXES)
     style = ChartStyle() if style is None else style
     with _font_size(style):
         save_figure(draw(style), path, style.resolution)
@@ -176,11 +176,6 @@ def _font_size(style: ChartStyle) -> Iterator[None]:
 def plain_text(text: str) -> str:
     """Escape a text from outside, so that matplotlib finds no formula in it and SVG no control characters."""
     return printable(text).replace("$", r"\$")
-
-
-def check_figure(path: Path) -> None:
-    """Raise `FileError` if the suffix is not one of `FIGURE_SUFFIXES`."""
-    suffix_for(path, "a figure", FIGURE_SUFFIXES)
 
 
 def check_matplotlib() -> None:

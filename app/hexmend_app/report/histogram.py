@@ -57,6 +57,8 @@ class Series:
 class Histogram:
     """Distributions with a common axis, and a column of inverted hexes left of the bins if there are any.
 
+    The heights fit the bins; a taller column of inverted hexes is cut off at their upper end.
+
     Parameters
     ----------
     series : sequence of Series
@@ -66,8 +68,6 @@ class Histogram:
         Positions are counted in bins.
     log : bool
         Logarithmic heights.
-    top : float
-        Upper end of the heights; by default it fits the bins. A taller column of inverted hexes is cut off there.
     """
 
     series: Sequence[Series]
@@ -76,7 +76,6 @@ class Histogram:
     ylabel: str
     ticks: Sequence[tuple[float, str]]
     log: bool = False
-    top: float = 0.0
 
     @property
     def names(self) -> list[str]:
@@ -101,12 +100,12 @@ class Histogram:
     @property
     def heights(self) -> tuple[float, float]:
         """Lower and upper end of the heights."""
-        drawn = [height for one in self.series for height in (*one.counts, one.inverted) if height > 0]
-        tallest = max((height for one in self.series for height in one.counts), default=0) or max(drawn, default=1)
-        top = self.top or tallest
+        bins = [height for one in self.series for height in one.counts if height > 0]
+        columns = [one.inverted for one in self.series if one.inverted]
+        top = max(bins or columns, default=1.0)
         if not self.log:
             return 0.0, _HEADROOM * top
-        floor = 0.5 * min(1.0, *drawn, top)
+        floor = 0.5 * min([1.0, *bins, *columns])
         return floor, floor * (top / floor) ** _HEADROOM
 
     def steps(self, series: Series) -> tuple[np.ndarray, np.ndarray]:

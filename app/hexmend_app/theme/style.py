@@ -105,7 +105,7 @@ def set_variant(widget: QWidget, value: str | bool, name: str = "variant") -> No
     ----------
     widget : QWidget
     value : str or bool
-        For `variant`: "main", "small", "section", "link", "segment", "name", "panel" or "lined".
+        For `variant`: "main", "small", "section", "link", "segment", "panel" or "lined".
     name : str
         Name of the property.
     """
