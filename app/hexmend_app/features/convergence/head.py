@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
@@ -14,6 +13,7 @@ from hexmend_app.widgets.inputs.menu_button import MenuButton
 
 _LOG = "Logarithmic axes, except for quality, solver iterations and backtracks. Zero is drawn below the smallest value."
 _BY_TIME = "Plot against the seconds spent in the method, or the times of a case, instead of iterations."
+_SAVE = "Save the charts as SVG, PDF or PNG, or the values of all runs as CSV."
 _FROM_ZERO = "Start every run at 0 instead of where it branched off."
 
 
@@ -28,46 +28,30 @@ class ConvergenceHead(QWidget):
 
     Signals
     -------
-    charts_changed
-        The user selected other charts.
-    axes_changed
-        The user changed between iterations and seconds, or between linear and logarithmic.
+    changed
+        The user selected other charts, or changed between iterations and seconds, or between linear and logarithmic.
     """
 
-    charts_changed = Signal()
-    axes_changed = Signal()
+    changed = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.charts = {
-            key: self._action(tr(chart.title), tr(chart.help), key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
-        }
-        for action in self.charts.values():
-            action.toggled.connect(self.charts_changed)
         charts = MenuButton(tr("Charts"), tr("Select the charts."))
         charts.setText(tr("Charts ▾"))
-        charts.menu().addActions(list(self.charts.values()))
         charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.log = self._action(tr("Logarithmic axes"), tr(_LOG), True)
-        self.by_time = self._action(tr("Time axis"), tr(_BY_TIME), False)
-        for action in (self.log, self.by_time):
-            action.toggled.connect(self.axes_changed)
-        self.from_zero = self._action(tr("Start branches at 0"), tr(_FROM_ZERO), False)
-        self.save = self._action(
-            tr("Save…"), tr("Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
-        )
+        self.charts = {
+            key: charts.add(tr(chart.title), tr(chart.help), key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
+        }
         options = MenuButton(tr("Chart options"), tr("Axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))
         options.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        options.menu().addActions([self.log, self.by_time, self.from_zero, self.save])
+        self.log = options.add(tr("Logarithmic axes"), tr(_LOG), True)
+        self.by_time = options.add(tr("Time axis"), tr(_BY_TIME), False)
+        for action in (*self.charts.values(), self.log, self.by_time):
+            action.toggled.connect(self.changed)
+        self.from_zero = options.add(tr("Start branches at 0"), tr(_FROM_ZERO), False)
+        self.save = options.add(tr("Save…"), tr(_SAVE))
         fill(QHBoxLayout(self), charts, options, margins=(0, 0, 0, 0))
-
-    def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
-        action = QAction(text, self)
-        action.setCheckable(on is not None)
-        action.setChecked(bool(on))
-        action.setToolTip(f"<qt>{help}</qt>")
-        return action
 
     def settings(self) -> ChartSettings:
         """Return the settings."""

@@ -61,8 +61,7 @@ class ConvergencePanel(QWidget):
         for plot in self.plots.values():
             plot.picked.connect(self.picked)
         self.head, self.runs = ConvergenceHead(), RunList()
-        self.head.charts_changed.connect(self._redraw)
-        self.head.axes_changed.connect(self._redraw)
+        self.head.changed.connect(self._redraw)
         self._lay_out()
         self.set_curves(())
 

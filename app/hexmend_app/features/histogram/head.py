@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QSpinBox, QWidget, QWidgetAction
 
 from hexmend.quality import METRICS
@@ -64,23 +63,11 @@ class HistogramHead(QWidget):
             self.metric_box.setItemData(self.metric_box.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.view().setMinimumWidth(220)
         self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
-        self.log = self._action(tr("Logarithmic"), tr(_LOG), True)
-        self.cumulative = self._action(tr("Cumulative"), tr(_CUMULATIVE), True)
-        for action in (self.log, self.cumulative):
-            action.toggled.connect(self.scale_changed)
         self.keep = QPushButton(tr("Keep"))
         narrow(self.keep)
-        self.save = self._action(tr("Save…"), tr(_SAVE))
-        self._make_bins()
-        self._lay_out()
+        self._make_menu()
+        fill(QHBoxLayout(self), (self.metric_box, 1), self.keep, self.more, margins=(0, 0, 0, 0))
         self.show_metric("q", True)
-
-    def _action(self, text: str, help: str, checkable: bool = False) -> QAction:
-        action = QAction(text, self)
-        action.setCheckable(checkable)
-        action.setToolTip(f"<qt>{help}</qt>")
-        action.setWhatsThis(help)
-        return action
 
     def _make_bins(self) -> None:
         self.bins = QSpinBox()
@@ -94,16 +81,19 @@ class HistogramHead(QWidget):
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self.bins, tr("Bins"), tr(_BINS))
 
-    def _lay_out(self) -> None:
+    def _make_menu(self) -> None:
         self.more = MenuButton(tr("More"), tr("Logarithmic heights, cumulative shares, number of bins, save."))
         self.more.setIcon(icon("dots-vertical"))
-        menu = self.more.menu()
-        menu.addActions([self.log, self.cumulative])
-        bins = QWidgetAction(menu)
-        bins.setDefaultWidget(self.bins)
-        menu.addActions([bins, self.save])
         self.more.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        fill(QHBoxLayout(self), (self.metric_box, 1), self.keep, self.more, margins=(0, 0, 0, 0))
+        self.log = self.more.add(tr("Logarithmic"), tr(_LOG), False)
+        self.cumulative = self.more.add(tr("Cumulative"), tr(_CUMULATIVE), False)
+        for action in (self.log, self.cumulative):
+            action.toggled.connect(self.scale_changed)
+        self._make_bins()
+        bins = QWidgetAction(self.more)
+        bins.setDefaultWidget(self.bins)
+        self.more.menu().addAction(bins)
+        self.save = self.more.add(tr("Save…"), tr(_SAVE))
 
     def settings(self) -> HistogramSettings:
         """Return the settings except the metric."""
