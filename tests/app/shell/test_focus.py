@@ -83,14 +83,14 @@ def everything_on(window):
 #: Panels that can be in front together, so that each is once.
 FRONTS = [
     ("run", "histogram", "worst"),
-    ("look", "quality", "hex"),
+    ("look", "histogram", "hex"),
     ("cut", "histogram", "convergence"),
-    ("show", "quality", "movement"),
-    ("recipe", "quality", "node"),
+    ("show", "histogram", "movement"),
+    ("recipe", "histogram", "node"),
     ("inside", "histogram", "outcome"),
-    ("run", "quality", "doctor"),
-    ("run", "quality", "tags"),
-    ("run", "quality", "compare"),
+    ("run", "histogram", "doctor"),
+    ("run", "histogram", "tags"),
+    ("run", "histogram", "compare"),
     ("run", "histogram", "runs"),
     ("look", "histogram", "script"),
     ("look", "histogram", "console"),
@@ -133,6 +133,7 @@ def test_tab_goes_in_reading_order(everything_on):
     reached = walk(window)
     tools, facts = (window.features[name].panel for name in ("smooth", "histogram"))
     parts = [
+        window.features["quality"].bar,
         window.canvas.colour_bar,
         window.messages,
         window.features["timeline"].panel,
