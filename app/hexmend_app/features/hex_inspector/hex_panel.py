@@ -153,7 +153,7 @@ class HexPanel(QWidget):
         self._stack.setCurrentIndex(0 if details is None else 1)
         if details is None:
             return
-        self._title.setText(tr("Hex {number:,}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
+        self._title.setText(tr("Hex {number}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
         self._state.setText(_state_text(details))
         for name, label in self._values.items():
             value = details.values[name]
@@ -161,13 +161,13 @@ class HexPanel(QWidget):
             tint(label, WORSE if METRICS[name].unacceptable(np.array(value)) else TEXT)
         worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
-            node.setText(f'&#8203;<a href="{details.nodes[k]}">{details.nodes[k]:,}</a>')
+            node.setText(f'&#8203;<a href="{details.nodes[k]}">{details.nodes[k]}</a>')
             kind.setText(tr("fixed") if details.fixed[k] else tr("free"))
             tint(kind, MUTED)
             quality.setText(figure(float(details.corners[k]), 3))
             tint(quality, WORSE if details.corners[k] == 0 or k == worst else TEXT)
         links = (
-            f'{face}:&nbsp;<a href="{h}">{h:,}</a>' if h >= 0 else f"{face}:&nbsp;{tr('boundary')}"
+            f'{face}:&nbsp;<a href="{h}">{h}</a>' if h >= 0 else f"{face}:&nbsp;{tr('boundary')}"
             for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
         )
         of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
@@ -190,7 +190,7 @@ class HexPanel(QWidget):
             self._about_node.setText(tr("Click near a corner or on a node number to select a node."))
             return
         kind = f"{details.kind}, pinned" if details.pinned and details.kind == "boundary" else details.kind
-        name = tr("Node {number:,}", number=details.number)
+        name = tr("Node {number}", number=details.number)
         if details.file_id is not None:
             name = tr("{name} ({id} in the file)", name=name, id=details.file_id)
         parts = [

@@ -175,7 +175,7 @@ def _target(step: NodeStep) -> list[Row]:
         target = tr("mean of positions in {hexes}", hexes=counted(count, "hex"))
         meaning = tr(
             "Positions of the node in each hex made more regular, white balls in the view. Weights: {weights}.",
-            weights=", ".join(f"{pull.number:,}: {pull.weight:.3f}" for pull in step.pulls),
+            weights=", ".join(f"{pull.number}: {pull.weight:.3f}" for pull in step.pulls),
         )
     fraction = tr("Fraction of the way to the target; smaller if the full step would lower the quality.")
     return [Row(tr("Target"), target, meaning), Row(tr("Step"), f"{100 * step.alpha:.0f} %", fraction)]

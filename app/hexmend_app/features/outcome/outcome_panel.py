@@ -185,7 +185,7 @@ class _HexList(QWidget):
     def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:
         """List hexes (k,) by number, with their numbers in the file if `ids` (m,) gives them."""
         self._hexes = hexes.tolist()
-        links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._hexes[:_MAX_LISTED])
+        links = ", ".join(f'<a href="{h}">{h}</a>' for h in self._hexes[:_MAX_LISTED])
         more = len(self._hexes) - _MAX_LISTED
         others = f" and {counted(more, 'other')}" if more > 0 else ""
         of_file = "" if ids is None else ", ".join(map(str, ids[hexes[:_MAX_LISTED]].tolist()))

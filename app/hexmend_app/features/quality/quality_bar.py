@@ -73,9 +73,11 @@ class QualityBar(QFrame):
         self._fit()
 
     def sizeHint(self) -> QSize:
-        """Return the size with all figures."""
+        """Return the size with all figures: that of the table if it is shown, else of the line."""
         hint = super().sizeHint()
-        return QSize(max(hint.width(), self._preferred_width + self._other_width()), hint.height())
+        if not self.all_button.isChecked():
+            hint.setWidth(self._preferred_width + self._other_width())
+        return hint
 
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
@@ -107,13 +109,13 @@ class QualityBar(QFrame):
 
     def _other_width(self) -> int:
         """Return the width of all except the line."""
-        margins = self._column.contentsMargins()
+        margins = self._column.contentsMargins() + self.contentsMargins()
         return margins.left() + margins.right() + self.all_button.sizeHint().width() + 4
 
     def _fit(self) -> None:
         if self._summaries is None:
             return
-        space, shown = self.contentsRect().width() - self._other_width(), len(FIGURES)
+        space, shown = self.width() - self._other_width(), len(FIGURES)
         self._set_line(shown, with_start=space >= self._preferred_width)
         while shown > 1 and self._label.sizeHint().width() > space:
             shown -= 1
