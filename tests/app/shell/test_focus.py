@@ -88,7 +88,6 @@ FRONTS = [
     ("inside", "histogram", "outcome"),
     ("run", "histogram", "doctor"),
     ("run", "histogram", "compare"),
-    ("run", "histogram", "runs"),
     ("look", "histogram", "script"),
     ("look", "histogram", "console"),
 ]

@@ -1,4 +1,4 @@
-"""Panel that compares methods on one mesh: selection, progress and results."""
+"""Panel that compares methods and runs on one mesh: selection, progress and results."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout,
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
-from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.features.compare.comparison_table import KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
@@ -18,7 +18,7 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
 
-_HINT = "Select methods and press Run. Each starts from the current mesh."
+_HINT = "Select methods and press Compare. Each starts from the current mesh."
 
 #: Width of a column in addition to its text, without and with a check box, in pixels.
 _PADDING, _CHECK_PADDING = 14, 26
@@ -71,8 +71,8 @@ class ComparePanel(QWidget):
         self._model = ComparisonModel(ticks, self)
         self._model.view_toggled.connect(self.view_toggled)
         self._model.ticked.connect(self._enable)
-        self._run = QPushButton(icon("play"), tr("Run"))
-        set_help(self._run, tr("Run comparison"), tr("Run the selected methods in turn. The mesh does not change."))
+        self._run = QPushButton(icon("play"), tr("Compare"))
+        set_help(self._run, tr("Compare methods"), tr("Run the selected methods in turn. The mesh does not change."))
         self.cancel_button = QPushButton(icon("stop"), tr("Cancel"))
         set_help(
             self.cancel_button, tr("Cancel comparison"), tr("Stop after the current iteration and keep the results.")
@@ -83,7 +83,9 @@ class ComparePanel(QWidget):
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self.save_button = QPushButton(icon("content-save-outline"), "")
-        set_help(self.save_button, tr("Save table"), tr("Save the table as CSV, Markdown, LaTeX or JSON."))
+        set_help(
+            self.save_button, tr("Save table"), tr("Save the table of methods as CSV, Markdown, LaTeX or JSON.")
+        )
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName(tr("Comparison progress"))
@@ -210,4 +212,4 @@ class ComparePanel(QWidget):
         self.cancel_button.setEnabled(model.busy)
         has_mesh = any(one.name == name and one.has_mesh for one in model.rows)
         self._use.setEnabled(self._editable and has_mesh)
-        self.save_button.setEnabled(any(one.record and one.name != INITIAL for one in model.rows) and not model.busy)
+        self.save_button.setEnabled(any(one.record and one.is_method for one in model.rows) and not model.busy)

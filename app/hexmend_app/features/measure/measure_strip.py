@@ -77,4 +77,4 @@ def measurement_text(measurement: Measurement) -> str:
 
 
 def _number(value: float) -> str:
-    return f"{value:.6g}"
+    return f"{value:.5g}".replace("-", "−")

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.style import labelled, narrow, set_help, tint
+from hexmend_app.theme.style import labelled, set_help, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.view_strip import ViewStrip
@@ -78,7 +78,6 @@ class TagStrip(ViewStrip):
     def _button(self, text: str, help: str) -> QPushButton:
         button = QPushButton(text)
         set_help(button, text.removesuffix("…"), help)
-        narrow(button)
         return button
 
     @property
