@@ -83,7 +83,8 @@ FRONTS = [
     ("run", "histogram", "worst"),
     ("look", "histogram", "hex"),
     ("cut", "histogram", "convergence"),
-    ("show", "histogram", "movement"),
+    ("show", "histogram", "worst"),
+    ("movement", "histogram", "worst"),
     ("recipe", "histogram", "node"),
     ("inside", "histogram", "outcome"),
     ("run", "histogram", "doctor"),
@@ -128,8 +129,8 @@ def test_tab_goes_in_reading_order(everything_on):
     reached = walk(window)
     tools, facts = (window.features[name].panel for name in ("smooth", "histogram"))
     parts = [
-        window.features["quality"].bar,
         window.canvas.colour_bar,
+        window.features["quality"].bar,
         window.messages,
         window.features["timeline"].panel,
         window.docks.row,
@@ -137,7 +138,6 @@ def test_tab_goes_in_reading_order(everything_on):
         window.features["hex_inspector"].worst_list,
         named(window, QTabBar, "Tools"),
         tools,
-        named(window, QTabBar, "Figures"),
         facts,
         window.canvas.interactor,
     ]
