@@ -83,9 +83,7 @@ class ComparePanel(QWidget):
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self.save_button = QPushButton(icon("content-save-outline"), "")
-        set_help(
-            self.save_button, tr("Save table"), tr("Save the table of methods as CSV, Markdown, LaTeX or JSON.")
-        )
+        set_help(self.save_button, tr("Save table"), tr("Save the table of methods as CSV, Markdown, LaTeX or JSON."))
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName(tr("Comparison progress"))

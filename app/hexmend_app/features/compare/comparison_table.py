@@ -178,7 +178,8 @@ class ComparisonModel(RowModel):
         self._texts = [column_texts(entries, quantity) for quantity in LINES]
         self._best = [best(entries, quantity, texts) for quantity, texts in zip(LINES, self._texts, strict=True)]
         self._dominating = {
-            one.name: [title_of(other.name) for other in entries if other.dominates(one)] for one in entries
+            one.name: [title_of(other.name) for other in entries if one.name != INITIAL and other.dominates(one)]
+            for one in entries
         }
         self.set_rows(entries, [one.name for one in entries] == [one.name for one in self.rows])
 

@@ -23,7 +23,7 @@ from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.wording import counted, duration
 
 #: Methods selected by default: the simplest, a fast one, an optimiser of the thesis, and the default method.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
@@ -170,7 +170,7 @@ class FeatureCompare(Feature):
             self.panel.set_status(tr("Stopping {title} after this iteration…", title=title_of(progress.method)))
         else:
             step = (
-                tr("iteration {number:,}, {seconds:.1f} s", number=progress.iteration, seconds=progress.seconds)
+                tr("iteration {number:,}, {time}", number=progress.iteration, time=duration(progress.seconds))
                 if progress.iteration
                 else tr("preparing…")
             )

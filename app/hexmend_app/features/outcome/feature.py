@@ -16,7 +16,7 @@ from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.style import show_text
 from hexmend_app.translation import tr
-from hexmend_app.widgets.wording import counted, figure
+from hexmend_app.widgets.wording import counted, duration, figure
 
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
 _RINGS = 2
@@ -38,7 +38,6 @@ class FeatureOutcome(Feature):
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._isolate)
-        panel.visit_requested.connect(self._isolate_and_visit)
         panel.suggestion_chosen.connect(lambda index: self._apply(self._shown.suggestions[index]))
         session.run.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_mesh_replaced)
@@ -69,6 +68,7 @@ class FeatureOutcome(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.SMOOTH,
+                tab=tr("Convergence"),
                 order=50,
                 help=tr("Why the run stopped and what to try next."),
             ),
@@ -143,11 +143,6 @@ class FeatureOutcome(Feature):
 
     def _isolate(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)
-        if len(hexes) == 1:
-            self.session.selection.visit(hexes[0])
-
-    def _isolate_and_visit(self, hexes: list[int]) -> None:
-        self.session.view.isolate(hexes)
         self.session.selection.visit(*hexes)
 
     def _apply(self, suggestion: Suggestion) -> None:
@@ -193,9 +188,7 @@ def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str
     )
     counts = tr("{inverted} inverted · {invalid} invalid", inverted=inverted, invalid=invalid)
     minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min, 3), j=figure(after.scaled_jacobian_min, 3))
-    seconds = record.rows[-1]["seconds"]
-    digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
-    effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
+    effort = f"{counted(record.newest, 'iteration')} · {duration(record.rows[-1]['seconds'])}"
     reason = record.message.partition(". ")[0].rstrip(".")
     kept = "" if record.result == record.newest else tr(" · iteration {number} was kept", number=record.result)
     return f"{counts} · {minima}", f"{effort} · {reason}{kept}"

@@ -48,6 +48,7 @@ class QualityBar(QFrame):
         self.table.hide()
         self.all_button = tool_button("chevron-down", MUTED)
         self.all_button.setCheckable(True)
+        self.all_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # an action does the same
         self.all_button.setIconSize(QSize(14, 14))
         set_help(self.all_button, tr("All figures"), tr("Show all quality figures, at the start and now."))
         self.all_button.toggled.connect(self._expand)
@@ -187,9 +188,8 @@ def _row_html(quantity: Quantity, start: float | None, now: float | None) -> str
     if quantity.key in LINKS and now:
         present = f'<a href="{LINKS[quantity.key]}" style="color: {BLUE}">{present}</a>'
     cells = "".join(f'<td align="right">&nbsp;&nbsp;{text}</td>' for text in (figure(start), present))
-    return (
-        f'<tr><td>{_unbroken(title)}</td>{cells}<td align="right" style="color: {colour}">&nbsp;&nbsp;{change}</td></tr>'
-    )
+    last = f'<td align="right" style="color: {colour}">&nbsp;&nbsp;{change}</td>'
+    return f"<tr><td>{_unbroken(title)}</td>{cells}{last}</tr>"
 
 
 def _unbroken(text: str) -> str:

@@ -61,9 +61,7 @@ class TagStrip(ViewStrip):
         self.hex_button = self._button(tr("Hex"), tr("Tag the selected hex, or remove the tag (T)."))
         self.shown_button = self._button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
         self.listed_button = self._button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
-        self.isolate_button = self._button(
-            tr("Isolate"), tr("Show only the hexes with this tag and their neighbours.")
-        )
+        self.isolate_button = self._button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))
         self.rename_button = self._button(tr("Rename…"), tr("Give the tag another name."))
         self.remove_button = self._button(tr("Remove"), tr("Remove this tag from all hexes."))
         self._about = ElidingLabel()
