@@ -25,6 +25,8 @@ class FeatureDoctor(Feature):
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
         self.panel.repair_requested.connect(self._repair)
+        self.panel.smooth_requested.connect(lambda: host.show_panel("run"))
+        self.panel.pad_requested.connect(lambda: host.action("pad").trigger())
         repairer = self.session.repairer
         repairer.began.connect(self._on_began)
         repairer.ended.connect(self._on_ended)
@@ -51,7 +53,7 @@ class FeatureDoctor(Feature):
                 icon="bandage",
                 help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
                 handle=lambda: self._repair([]),
-                enabled=lambda: self.session.editable,
+                enabled=lambda: self.session.editable and self._can_repair(),
             ),
         )
 
@@ -81,8 +83,13 @@ class FeatureDoctor(Feature):
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
         if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
-            self.panel.show_findings(findings, tr("Mesh not checked: {error}", error=error) if error else "", mesh)
-            self.panel.set_busy(not session.editable)
+            problem = tr("Mesh not checked: {error}", error=error) if error else ""
+            self.panel.show_findings(findings, problem, mesh, session.document.now.summary.inverted)
+
+    def _can_repair(self) -> bool:
+        """Return True unless the doctor has found nothing that can be repaired."""
+        findings = self.session.mesh_checker.of(self.session.document.now.mesh)
+        return findings is None or any(finding.mendable for finding in findings)
 
     def _show(self, row: int) -> None:
         finding, mesh = self._listed[row], self.session.document.now.mesh

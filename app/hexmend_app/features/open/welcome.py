@@ -106,8 +106,8 @@ def _verdict(state: State) -> str:
                 "Solvers reject this mesh. Fixed nodes keep all inverted hexes inverted: let the boundary slide, or "
                 "unpin nodes."
             )
-        locked_part = tr(", of which fixed nodes lock {count}", count=figure(locked)) if locked else ""
-        return tr("Solvers reject inverted hexes{locked}. Run Mend to untangle them.", locked=locked_part)
+        locked_part = tr(" Fixed nodes lock {count} of them.", count=figure(locked)) if locked else ""
+        return tr("Solvers reject inverted hexes. Run Mend to untangle them.") + locked_part
     if summary.invalid:
         hexes = counted(summary.invalid, "hex")
         return tr("Solvers may reject {hexes} invalid inside, between valid corners. Run Mend.", hexes=hexes)
