@@ -15,7 +15,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
-from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
+from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.document import State
@@ -44,13 +44,10 @@ class FeatureCompare(Feature):
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
-        panel.run_requested.connect(lambda names: session.run_setup.use(lambda stage: self._start(names, stage)))
-        panel.cancel_button.clicked.connect(self._comparison.cancel)
-        panel.view_toggled.connect(self._toggle)
+        panel.model.view_toggled.connect(self._toggle)
+        panel.model.ticked.connect(host.refresh_soon)
         panel.use_requested.connect(self._use)
-        panel.wipe_button.clicked.connect(self._views.set_wiping)
         panel.save_button.clicked.connect(self.ask)
-        panel.can_run_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that run and cancel a comparison."""
@@ -62,8 +59,8 @@ class FeatureCompare(Feature):
                 keys="F6",
                 icon="play",
                 help=tr("Run the methods selected in the panel in turn. The mesh does not change."),
-                handle=self.panel.run,
-                enabled=lambda: self.panel.can_run,
+                handle=self.run,
+                enabled=lambda: self._runnable and bool(self.panel.model.ticks),
             ),
             Action(
                 id="cancel_comparison",
@@ -82,6 +79,10 @@ class FeatureCompare(Feature):
         return (
             StatePart(name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore),
         )
+
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.panel.show_actions({id: self.host.action(id) for id in ACTIONS})
 
     def panels(self) -> Sequence[Panel]:
         """Return the panel of methods."""
@@ -108,8 +109,7 @@ class FeatureCompare(Feature):
             methods = [self._entry(name, comparison.of(name), norm) for name in METHODS]
             rows = [self._initial(norm), *(self._run_entry(one, norm) for one in runs), *methods]
             self.panel.set_entries(rows, views.full, comparison.busy)
-        runnable = session.editable and not comparison.busy  # a second comparison would distort the times
-        self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
+        self.panel.set_editable(session.editable)
         self._show_status()
 
     def _close_results(self) -> None:
@@ -186,8 +186,17 @@ class FeatureCompare(Feature):
 
     # Requests of the user
 
-    def _start(self, names: list[str], stage: Stage) -> None:
-        if self.session.editable:
+    @property
+    def _runnable(self) -> bool:
+        return self.session.editable and not self._comparison.busy  # a second comparison would distort the times
+
+    def run(self) -> None:
+        """Run the selected methods; with invalid limits, show them."""
+        self.session.run_setup.use(self._start)
+
+    def _start(self, stage: Stage) -> None:
+        if self._runnable:
+            names = [name for name in METHODS if name in self.panel.model.ticks]
             smoothers = [self.session.run_setup.smoother_of(name) for name in names]
             self.session.commands.when_memory_suffices(smoothers, lambda: self._compare(smoothers, stage))
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QStackedLayout, QVBoxLayout, QWidget
 from superqt import QFlowLayout
 
-from hexmend.quality import METRICS, Metric
+from hexmend.quality import Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
@@ -185,7 +185,7 @@ def _corner_rows(details: HexDetails) -> list[Sequence[tuple[str, Role]]]:
 
 
 def _table(rows: Sequence[Sequence[tuple[str, Role]]]) -> str:
-    """Return rows of cells, which are HTML with a colour, as an HTML table; all but the first cell are right-aligned."""
+    """Return rows of cells, HTML with a colour, as an HTML table; all but the first cell are right-aligned."""
     lines = ""
     for row in rows:
         cells = (

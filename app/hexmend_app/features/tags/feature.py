@@ -10,7 +10,7 @@ import numpy as np
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.tags.tag_strip import Tag, TagStrip
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_tag_name
+from hexmend_app.widgets.dialogs.questions import ask_new_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -104,7 +104,7 @@ class FeatureTags(Feature):
     def _ask_name(self) -> None:
         """Ask for another name of the tag; that of another tag is refused."""
         before, others = self.strip.name, self.session.document.now.mesh.hex_sets
-        name = ask_tag_name(self.host.dialog_parent, before)
+        name = ask_new_name(self.host.dialog_parent, tr("Rename tag"), before)
         if name in others and name != before:
             self.host.messages.show_info(tr("There is a tag “{name}” already.", name=name))
         elif name and name != before:

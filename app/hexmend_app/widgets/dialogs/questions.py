@@ -165,11 +165,9 @@ def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
     return name if name not in names or _ask_yes(parent, problem, tr("Replace it?")) else ""
 
 
-def ask_tag_name(parent: QWidget, name: str) -> str:
-    """Ask for another name of a tag; "" if cancelled."""
-    text, accepted = QInputDialog.getText(
-        parent, tr("Rename tag"), tr("Name of the tag:"), QLineEdit.EchoMode.Normal, name
-    )
+def ask_new_name(parent: QWidget, title: str, name: str) -> str:
+    """Ask for another name of something, with the title of the question; "" if cancelled."""
+    text, accepted = QInputDialog.getText(parent, title, tr("New name:"), QLineEdit.EchoMode.Normal, name)
     return text.strip() if accepted else ""
 
 

@@ -203,7 +203,8 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
     session.recipe_draft.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
     window.features["recipe"].run()
     assert session.run.phase is Phase.IDLE
-    window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
+    window.features["compare"].panel.model.tick(["laplacian", "mend"])
+    window.features["compare"].run()
     assert not session.comparison.busy
     assert len(asked) == 2
 
