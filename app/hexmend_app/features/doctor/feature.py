@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.doctor import Finding
-from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
+from hexmend_app.host import ChangeReport
 from hexmend_app.translation import tr
 
 
@@ -27,11 +27,16 @@ class FeatureDoctor(Feature):
         self.panel.repair_requested.connect(self._repair)
         self.panel.smooth_requested.connect(lambda: host.show_panel("run"))
         self.panel.pad_requested.connect(lambda: host.action("pad").trigger())
-        repairer = self.session.repairer
-        repairer.began.connect(self._on_began)
-        repairer.ended.connect(self._on_ended)
-        repairer.failed.connect(self._on_failed)
-        repairer.cancelled.connect(self._on_cancelled)
+        ChangeReport(
+            host,
+            self.session.repairer,
+            key="repair",
+            working=tr("Repairing mesh…"),
+            cancel_help=tr("Cancel the repair. The mesh does not change."),
+            failed=tr("Mesh not repaired"),
+            cancelled=tr("Repair cancelled."),
+        )
+        self.session.repairer.ended.connect(self._on_ended)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that open the panel and repair all problems."""
@@ -105,27 +110,8 @@ class FeatureDoctor(Feature):
     def _repair(self, kinds: list[str]) -> None:
         self.session.commands.repair(kinds)
 
-    def _on_began(self) -> None:
-        help = tr("Cancel the repair. The mesh does not change.")
-        self.host.busy.show_work("repair", tr("Repairing mesh…"), tr("Cancel"), help, self.session.repairer.cancel)
-        self.host.refresh_soon()
-
     def _on_ended(self, repaired: tuple[Finding, ...]) -> None:
-        self.host.busy.done("repair")
         messages = " ".join(finding.message for finding in repaired)
         self.host.messages.show_info(
             tr("Repaired: {messages}", messages=messages) if repaired else tr("Nothing to repair.")
         )
-        self.host.refresh_soon()
-
-    def _on_failed(self, error: Exception) -> None:
-        self.host.busy.done("repair")
-        self.host.refresh_soon()
-        if not isinstance(error, HexmendError):
-            raise error
-        self.host.messages.show_error(tr("Mesh not repaired"), str(error))
-
-    def _on_cancelled(self) -> None:
-        self.host.busy.done("repair")
-        self.host.messages.show_info(tr("Repair cancelled."))
-        self.host.refresh_soon()

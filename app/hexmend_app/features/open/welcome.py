@@ -87,7 +87,7 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     hexes = counted(summary.hexes, "hex")
     counts = {"inverted": figure(summary.inverted), "invalid": figure(summary.invalid)}
     title = tr("{name}: {hexes}, {inverted} inverted, {invalid} invalid", name=name, hexes=hexes, **counts)
-    least = figure(summary.scaled_jacobian_min, 3)
+    least = figure(summary.scaled_jacobian_min)
     sentences = [tr("{verdict} Minimum scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
     if mesh.materials is not None:
         sentences.append(f"{counted(len(mesh.materials.names), 'material')}.")

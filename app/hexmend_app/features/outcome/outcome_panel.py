@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.palette import AMBER, INVERTED_TEXT, TEXT, WORSE
+from hexmend_app.theme.palette import INVERTED_TEXT, TEXT, WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import note, on_theme_change, set_help
+from hexmend_app.theme.style import on_theme_change, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import counted, with_minus
@@ -60,13 +60,11 @@ class OutcomePanel(QWidget):
         )
         self.text.followed.connect(self.chosen)
         self.text.linkActivated.connect(self._follow)
-        self.view_note = note("", AMBER)
-        self.view_note.hide()
         self._suggestions = QGridLayout()
         self._suggestions.setColumnStretch(0, 1)
         self._suggestions.setVerticalSpacing(8)
         self._buttons: list[QPushButton] = []
-        fill(QVBoxLayout(self), self.view_note, self.text, self._suggestions, margins=(8, 0, 8, 4))
+        fill(QVBoxLayout(self), self.text, self._suggestions, margins=(8, 0, 8, 4))
         on_theme_change(self, self._show)
 
     def show_hint(self, hint: str = "") -> None:

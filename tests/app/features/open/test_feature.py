@@ -224,7 +224,7 @@ def test_it_counts_and_says_what_to_do():
     title, text = card("a.vtu", State.of(make("bridge-sharp", size=864, scramble=0.6)), ())
     assert title.startswith("a.vtu: 864 hexes, ")
     assert "Run Mend to untangle them" in text
-    assert text_of(make("cube", size=27)) == "No hex is invalid. Minimum scaled Jacobian 1.000."
+    assert text_of(make("cube", size=27)) == "No hex is invalid. Minimum scaled Jacobian 1.0000."
     flat = make("cube", size=27)
     assert "some have a low quality" in text_of(
         flat.with_points(flat.points * [1, 1, 1] + 1.3 * np.sin(flat.points[:, ::-1] * 7) / 7)
