@@ -27,6 +27,9 @@ _NODE_HELP = (
     "steepest descent; the gradient is given per mean edge length."
 )
 
+#: Cells of a table: HTML with its colour.
+_Row = Sequence[tuple[str, Role]]
+
 #: Columns of metrics; a narrow panel shows them one below the other.
 _METRIC_COLUMNS = 3
 
@@ -71,7 +74,7 @@ class HexPanel(QWidget):
         set_help(self._about_node, tr("Node"), tr(_NODE_HELP))
         self._pin = QCheckBox(tr("Pinned"))
         set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
-        self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
+        self._pin.clicked.connect(self._on_pin)
         self._lay_out()
         on_theme_change(self, self._show_tables)
 
@@ -118,12 +121,16 @@ class HexPanel(QWidget):
         of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
         self.neighbours.setText(of_file + tr("Neighbours: {links}", links=" &nbsp;&nbsp;".join(links)))
 
+    def _on_pin(self, on: bool) -> None:
+        if self._node is not None:
+            self.pin_toggled.emit(self._node.number, on)
+
     def _show_tables(self) -> None:
         """Show the metrics and the corners, in the colours of the theme."""
         if self._details is None:
             return
         for metrics, label in self._metrics:
-            label.setText(_table(_metric_row(metric, self._details.values[metric.name]) for metric in metrics))
+            label.setText(_table([_metric_row(metric, self._details.values[metric.name]) for metric in metrics]))
             label.setToolTip("<br>".join(described(metric) for metric in metrics))
         self._corners.setText(_table(_corner_rows(self._details)))
 
@@ -167,16 +174,16 @@ def _state_text(details: HexDetails) -> str:
     return tr("{state}; det J min / max {least}", state=state, least=figure(details.least_jacobian))
 
 
-def _metric_row(metric: Metric, value: float) -> Sequence[tuple[str, Role]]:
+def _metric_row(metric: Metric, value: float) -> _Row:
     text = "∞" if value == np.inf else value_text(metric, value)
     colour = WORSE if metric.unacceptable(np.array(value)) else TEXT
     return (escape(tr(metric.title)), TEXT), (text, colour)
 
 
-def _corner_rows(details: HexDetails) -> list[Sequence[tuple[str, Role]]]:
+def _corner_rows(details: HexDetails) -> list[_Row]:
     """Return the head of the table of corners, and for each corner a link to its node, its kind and its quality."""
     worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
-    rows = [((f"&#8203;{tr('Node')}", MUTED), ("", MUTED), ("q(T)", MUTED))]
+    rows: list[_Row] = [((f"&#8203;{tr('Node')}", MUTED), ("", MUTED), ("q(T)", MUTED))]
     for k, (node, fixed, quality) in enumerate(zip(details.nodes, details.fixed, details.corners, strict=True)):
         link, kind = f'<a href="{node}">{node}</a>', tr("fixed") if fixed else tr("free")
         colour = WORSE if quality == 0 or k == worst else TEXT
@@ -184,7 +191,7 @@ def _corner_rows(details: HexDetails) -> list[Sequence[tuple[str, Role]]]:
     return rows
 
 
-def _table(rows: Sequence[Sequence[tuple[str, Role]]]) -> str:
+def _table(rows: Sequence[_Row]) -> str:
     """Return rows of cells, HTML with a colour, as an HTML table; all but the first cell are right-aligned."""
     lines = ""
     for row in rows:

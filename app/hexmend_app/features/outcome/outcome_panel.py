@@ -49,7 +49,8 @@ class OutcomePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._title, self._hint, self._advice = "", tr(_HINT), None
+        self._title, self._hint = "", tr(_HINT)
+        self._advice: Advice | None = None
         self._ids: np.ndarray | None = None
         self._busy = False
         self.text = LinkLabel()
