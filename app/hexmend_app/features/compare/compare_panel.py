@@ -20,7 +20,7 @@ from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
 
-_HINT = "Select methods and press Compare. Each starts from the current mesh."
+_HINT = "Select methods and press Compare methods. Each starts from the current mesh."
 
 #: Actions on buttons.
 ACTIONS = ("compare", "cancel_comparison", "wipe")

@@ -89,6 +89,8 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     title = tr("{name}: {hexes}, {inverted} inverted, {invalid} invalid", name=name, hexes=hexes, **counts)
     least = figure(summary.scaled_jacobian_min)
     sentences = [tr("{verdict} Minimum scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
+    if mesh.mid_nodes is not None:
+        sentences.append(tr("The hexes are of second order."))
     if mesh.materials is not None:
         sentences.append(f"{counted(len(mesh.materials.names), 'material')}.")
     sentences += mesh.notes
