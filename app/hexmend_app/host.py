@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QWidget
+
+from hexmend.errors import HexmendError
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
     from hexmend_app.state.session.session import Session
+    from hexmend_app.state.tasks.mesh_change import BackgroundChange
     from hexmend_app.widgets.busy import Busy
     from hexmend_app.widgets.message_bar import MessageBar
 
@@ -69,3 +74,44 @@ class Host(Protocol):
 
     def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
         """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
+
+
+class ChangeReport(QObject):
+    """Shows that a change is in progress, with a button to cancel it, and that it failed or was cancelled.
+
+    Parameters
+    ----------
+    host : Host
+    change : BackgroundChange
+    key : str
+        Identifies the work in `Host.busy`.
+    working, cancel_help, failed, cancelled : str
+        Sentence while the change is in progress, help of its button, title if it failed, and sentence if cancelled.
+    """
+
+    def __init__(
+        self, host: Host, change: BackgroundChange, *, key: str, working: str, cancel_help: str, failed: str,
+        cancelled: str,
+    ):  # fmt: skip
+        super().__init__(change)
+        self._host, self._change, self._key = host, change, key
+        self._working, self._cancel_help, self._failed = working, cancel_help, failed
+        change.began.connect(self._on_began)
+        change.ended.connect(self._on_over)
+        change.failed.connect(self._on_failed)
+        change.cancelled.connect(self._on_over)
+        change.cancelled.connect(lambda: host.messages.show_info(cancelled))
+
+    def _on_began(self) -> None:
+        self._host.busy.show_work(self._key, self._working, tr("Cancel"), self._cancel_help, self._change.cancel)
+        self._host.refresh_soon()
+
+    def _on_over(self) -> None:
+        self._host.busy.done(self._key)
+        self._host.refresh_soon()
+
+    def _on_failed(self, error: Exception) -> None:
+        self._on_over()
+        if not isinstance(error, HexmendError):
+            raise error
+        self._host.messages.show_error(self._failed, str(error))

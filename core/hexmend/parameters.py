@@ -30,7 +30,18 @@ SET = "set:"
 #: Value that leaves the choice to the program.
 AUTO = "auto"
 #: Fields of `Parameter` that `hexmend methods --json` does not list.
-_NOT_IN_JSON = ("type", "no_limit", "suggestions", "sets", "automatic", "percent_of", "titles", "advanced", "label")
+_NOT_IN_JSON = (
+    "type",
+    "no_limit",
+    "suggestions",
+    "sets",
+    "automatic",
+    "percent_of",
+    "titles",
+    "advanced",
+    "label",
+    "zero",
+)
 _TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -64,6 +75,8 @@ class Parameter:
         Forms show it on request only, as its default suits nearly all meshes.
     label : str
         Label in forms; "" for the name in words.
+    zero : str
+        Word that forms show for the number 0; "" for the number.
     """
 
     name: str
@@ -82,6 +95,7 @@ class Parameter:
     titles: tuple[str, ...] = ()
     advanced: bool = False
     label: str = ""
+    zero: str = ""
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.

@@ -41,7 +41,7 @@ def compare(window: Window) -> None:
 def show(window: Window, *names: str) -> None:
     """Show the results in views."""
     for name in names:
-        window.features["compare"].panel.view_toggled.emit(name, True)
+        window.features["compare"].panel.model.view_toggled.emit(name, True)
         window.refresh()
 
 

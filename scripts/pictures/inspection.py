@@ -82,7 +82,7 @@ def dark(window: Window) -> None:
     figures = window.session.document.now.figures
     window.session.commands.tag("inverted", np.flatnonzero(figures.inverted))
     window.session.commands.tag("flat", np.flatnonzero(~figures.inverted & (figures.q < 0.3)))
-    window.show_panel("tags")
+    window.action("tags").trigger()
     cut_mesh(window)
 
 

@@ -19,13 +19,13 @@ _SIZE = (1240, 780)
 def pause(window: Window) -> None:
     """Run the default method, and pause it after a few iterations."""
     set_method(window, "mend")
-    panel = window.features["smooth"].panel
-    panel.step()
+    smooth = window.features["smooth"]
+    smooth.step()
     wait_until(lambda: window.session.run.phase in (Phase.PAUSED, Phase.FINISHED))
     for _ in range(3):
         if window.session.run.phase is Phase.PAUSED:
             window.refresh()
-            panel.step()
+            smooth.step()
             wait_until(lambda: window.session.run.phase in (Phase.PAUSED, Phase.FINISHED))
 
 

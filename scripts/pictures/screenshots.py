@@ -160,7 +160,7 @@ def set_method(window: Window, name: str, **limits: float) -> None:
 def run_method(window: Window, method: str, **limits: float) -> None:
     """Run a method on the mesh shown until it finishes."""
     set_method(window, method, **limits)
-    window.features["smooth"].panel.run_or_pause()
+    window.features["smooth"].run_or_pause()
     wait_until(lambda: window.session.run.phase is Phase.FINISHED)
     window.refresh()
 

@@ -40,7 +40,7 @@ def compare(window: Window) -> None:
     window.action("compare").trigger()
     wait_until(lambda: window.session.comparison.results and not window.session.comparison.busy)
     for name in ("laplacian", "mend"):
-        window.features["compare"].panel.view_toggled.emit(name, True)
+        window.features["compare"].panel.model.view_toggled.emit(name, True)
         window.refresh()
 
 

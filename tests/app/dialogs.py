@@ -26,7 +26,6 @@ def _palette(window: Window) -> QDialog:
 DIALOGS: dict[str, Callable[[Window], QDialog]] = {
     "picture": lambda window: window.features["save"].picture_dialog(),
     "histogram": lambda window: window.features["histogram"].dialog(),
-    "cameras": lambda window: window.features["camera"].cameras_dialog(),
     "film": lambda window: FilmDialog(FilmChoice(), (800, 600), 40, window),
     "pad": _pad,
     "keys": lambda window: KeysPage(window.menus.declared(), window),

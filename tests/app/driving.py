@@ -53,12 +53,13 @@ def brought(window, qtbot, panel, feature=""):
 
 
 def click(window, text):
-    """Press a button of the smoothing panel."""
+    """Press a button of the active run below the view, or of the smoothing panel."""
     window.refresh()
     press(
         next(
             b
-            for b in window.features["smooth"].panel.findChildren(QAbstractButton)
+            for part in (window.features["timeline"].panel.run_bar, window.features["smooth"].panel)
+            for b in part.findChildren(QAbstractButton)
             if b.accessibleName() == text and b.isVisible()
         )
     )

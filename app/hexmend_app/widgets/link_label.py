@@ -9,7 +9,7 @@ from hexmend_app.theme.style import on_theme_change
 
 
 class LinkLabel(QLabel):
-    """Label of rich text with links to numbers, which are followed by mouse or keyboard.
+    """Label of rich text with links, which are followed by mouse or keyboard.
 
     A text that begins with a link needs a zero-width space before it: Shift+Tab cannot leave a link at the start of a
     label.
@@ -17,7 +17,7 @@ class LinkLabel(QLabel):
     Signals
     -------
     followed(int)
-        The user followed a link to this number.
+        The user followed a link to this number; `linkActivated` is emitted for all links.
     """
 
     followed = Signal(int)
@@ -28,7 +28,7 @@ class LinkLabel(QLabel):
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
-        self.linkActivated.connect(lambda link: self.followed.emit(int(link)))
+        self.linkActivated.connect(lambda link: self.followed.emit(int(link)) if link.isdigit() else None)
         on_theme_change(self, lambda: self.setText(self.text()))
 
     def setText(self, text: str) -> None:

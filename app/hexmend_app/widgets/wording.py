@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QLocale
 
 from hexmend.parameters import Parameter
+from hexmend.quantity import format_significant
 from hexmend_app.translation import tr
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
@@ -138,6 +139,15 @@ def size(bytes: int) -> str:
     ('123 MiB', '1 GiB', '1.5 GiB')
     """
     return QLocale.c().formattedDataSize(bytes, 1).replace(".0 ", " ")
+
+
+def duration(seconds: float) -> str:
+    """Return a time as text, in the form of the messages of runs.
+
+    >>> duration(0.00127), duration(0.2764), duration(53.12)
+    ('0.00127 s', '0.276 s', '53.1 s')
+    """
+    return f"{format_significant(seconds, 3)} s"
 
 
 def counted(number: int, noun: str) -> str:

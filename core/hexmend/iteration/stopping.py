@@ -52,6 +52,7 @@ class StoppingCriteria(Parametrised):
         low=0,
         high=1e7,
         unit="s",
+        zero="none",
         help="Time limit of the method with its set-up; 0 sets no limit. The current iteration is completed.",
     )
     keep_last: bool = parameter(

@@ -49,7 +49,7 @@ def everything(window, qtbot):
     assert len(window.canvas.panes.all) == 2
     session.commands.tag("last", [last_hex])
     session.commands.pin(last_node, True)
-    window.show_panel("tags")
+    window.action("tags").trigger()
     qtbot.waitUntil(lambda: session.structure_finder.result is not None)
     window.show_panel("doctor")
     qtbot.waitUntil(lambda: session.mesh_checker.of(session.document.now.mesh) is not None)

@@ -32,7 +32,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
         window.refresh()
         assert not any(window.window_actions[id].isEnabled() for id in ("run", "step", "reset", "undo"))
         assert not window.features["smooth"].panel.isEnabled()
-        window.features["smooth"].panel.run_requested.emit(Stage(METHODS["laplacian"](), StoppingCriteria()))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria()))
         window.session.commands.tag("late", [8])
         window.session.commands.undo()
         assert window.session.document.now is before

@@ -23,9 +23,8 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert window.windowTitle().startswith("bridge.vtu")
     assert "4,000 hexes" in named(window, QLabel, "Counts").text()
     summary = window.session.document.now.summary
-    window.show_panel("quality")
     window.refresh()
-    assert f"{summary.inverted:,}" in window.features["quality"].panel.text()
+    assert f"inverted {summary.inverted:,}" in window.features["quality"].bar.text
     assert not window.features["open"].welcome.isVisible()
     image = pixels(window)
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
@@ -36,7 +35,7 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
     qtbot.waitUntil(lambda: window.width() == size[0])
-    for panel in ("run", "look", "cut", "show", "histogram", "quality"):
+    for panel in ("run", "look", "cut", "show", "histogram"):
         window.show_panel(panel)
         window.refresh()
         QApplication.processEvents()

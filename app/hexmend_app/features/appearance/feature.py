@@ -90,7 +90,7 @@ class FeatureAppearance(Feature):
         return (
             Panel(
                 id="look",
-                title=tr("Colour"),
+                title=tr("Look"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 group=PanelGroup.LOOK,

@@ -9,12 +9,12 @@ from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
-from hexmend_app.features.camera.cameras_dialog import CamerasDialog, CamerasMenu
+from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_camera_name
+from hexmend_app.widgets.dialogs.questions import ask_camera_name, ask_new_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -43,8 +43,10 @@ class FeatureCamera(Feature):
         super().__init__(host)
         self._seen = ChangeTracker()
         self._cameras = self.session.saved_cameras
-        self._menu = CamerasMenu(self._cameras, host.dialog_parent)
-        self._menu.chosen.connect(self.go)
+        self.menu = CamerasMenu(self._cameras, host.dialog_parent)
+        self.menu.chosen.connect(self.go)
+        self.menu.rename_requested.connect(self._ask_new_name)
+        self.menu.delete_requested.connect(self._cameras.remove)
         self.session.selection.visited.connect(self._fly)
 
     def actions(self) -> Sequence[Action]:
@@ -125,7 +127,7 @@ class FeatureCamera(Feature):
         )
 
     def _saved(self) -> Sequence[Action]:
-        """Return the actions for saved cameras."""
+        """Return the action that saves the camera; the menu of saved cameras follows it."""
         return (
             Action(
                 id="keep_camera",
@@ -137,16 +139,7 @@ class FeatureCamera(Feature):
                 help=tr("Save the camera under a name, for views, pictures and the session."),
                 handle=self.ask_name,
                 enabled=lambda: self._draws,
-                submenu=self._menu,
-            ),
-            Action(
-                id="cameras",
-                text=tr("Saved ca&meras…"),
-                menu="View/Camera",
-                part=2,
-                help=tr("Apply, rename or delete a saved camera."),
-                handle=self.show_cameras,
-                enabled=lambda: self._draws and bool(self._cameras.all),
+                submenu=self.menu,
             ),
         )
 
@@ -216,7 +209,7 @@ class FeatureCamera(Feature):
     def keep(self, name: str) -> None:
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
-        success = tr("Camera saved as “{name}”; apply it with View > Camera > Go to camera.", name=name)
+        success = tr("Camera saved as “{name}”; apply it with View > Camera > Saved cameras.", name=name)
         self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
 
     def go(self, name: str) -> None:
@@ -224,17 +217,14 @@ class FeatureCamera(Feature):
         if self._draws and name in self._cameras.all:
             self._apply(self._cameras.all[name])
 
-    def show_cameras(self) -> None:
-        """Show the dialog of saved cameras."""
-        dialog = self.cameras_dialog()
-        dialog.exec()
-        dialog.deleteLater()
-
-    def cameras_dialog(self) -> CamerasDialog:
-        """Return the dialog that applies, renames and deletes saved cameras."""
-        dialog = CamerasDialog(self._cameras, self.host.dialog_parent)
-        dialog.chosen.connect(self.go)
-        return dialog
+    def _ask_new_name(self, before: str) -> None:
+        """Ask for another name of a camera; that of another one is refused."""
+        name = ask_new_name(self.host.dialog_parent, tr("Rename camera"), before)
+        if name in self._cameras.all and name != before:
+            text = tr("A camera “{name}” already exists. Choose another name, or delete that camera first.", name=name)
+            self.host.messages.show_info(text)
+        elif name:
+            self.host.try_and_report(tr("Camera not renamed"), lambda: self._cameras.rename(before, name))
 
     def _apply(self, camera: Camera, history: PoseHistoryData | None = None) -> None:
         if camera.pose is not None:

@@ -1,27 +1,29 @@
-"""Panel that compares methods on one mesh: selection, progress and results."""
+"""Panel that compares methods and runs on one mesh: selection, progress and results."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
-from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.features.compare.comparison_table import KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
+from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
 
-_HINT = "Select methods and press Run. Each starts from the current mesh."
+_HINT = "Select methods and press Compare methods. Each starts from the current mesh."
 
-#: Width of a column in addition to its text, without and with a check box, in pixels.
-_PADDING, _CHECK_PADDING = 14, 26
+#: Actions on buttons.
+ACTIONS = ("compare", "cancel_comparison", "wipe")
 
 
 @dataclass(frozen=True)
@@ -47,56 +49,39 @@ class ComparePanel(QWidget):
     ticks : sequence of str
         Methods selected by default.
 
+    Attributes
+    ----------
+    model : ComparisonModel
+
     Signals
     -------
-    run_requested(names)
-        The user started these methods, in the order of the unsorted table.
-    view_toggled(name, on)
-        The user showed or hid the mesh of a row.
     use_requested(name)
         The user replaced the mesh by the result of a row.
-    can_run_changed
-        The value of `can_run` changed.
     """
 
-    run_requested = Signal(list)
-    view_toggled = Signal(str, bool)
     use_requested = Signal(str)
-    can_run_changed = Signal()
 
     def __init__(self, ticks: Sequence[str] = (), parent: QWidget | None = None):
         super().__init__(parent)
-        self._runnable = self._editable = False
-        self._names: list[str] = []
-        self._model = ComparisonModel(ticks, self)
-        self._model.view_toggled.connect(self.view_toggled)
-        self._model.ticked.connect(self._enable)
-        self._run = QPushButton(icon("play"), tr("Run"))
-        set_help(self._run, tr("Run comparison"), tr("Run the selected methods in turn. The mesh does not change."))
-        self.cancel_button = QPushButton(icon("stop"), tr("Cancel"))
-        set_help(
-            self.cancel_button, tr("Cancel comparison"), tr("Stop after the current iteration and keep the results.")
-        )
-        self.wipe_button = QPushButton(icon("compare"), tr("Wipe"))
-        self.wipe_button.setCheckable(True)
-        set_help(self.wipe_button, tr("Wipe"), tr("Show two views in one, with an edge between them to drag (W)."))
+        self._editable = False
+        self.model = ComparisonModel(ticks, self)
+        self._actions = {id: ActionButton(with_text=True) for id in ACTIONS}
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self.save_button = QPushButton(icon("content-save-outline"), "")
-        set_help(self.save_button, tr("Save table"), tr("Save the table as CSV, Markdown, LaTeX or JSON."))
+        set_help(self.save_button, tr("Save table"), tr("Save the table of methods as CSV, Markdown, LaTeX or JSON."))
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName(tr("Comparison progress"))
         tint(self._status, MUTED)
         self._table = self._make_table()
         self._lay_out()
-        self._run.clicked.connect(self.run)
         self._use.clicked.connect(lambda: self.use_requested.emit(self._selected()))
         self.set_status()
 
     def _make_table(self) -> QTableView:
         table = QTableView()
-        table.setModel(self._model)
+        table.setModel(self.model)
         shape_table(table, tr("Comparison of methods"), METHOD)
         header = table.horizontalHeader()
         header.setSectionResizeMode(header.ResizeMode.Interactive)
@@ -109,12 +94,8 @@ class ComparePanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        row = (self._run, self.cancel_button, None, self.wipe_button, self._use, self.save_button)
-        buttons = [button for button in row if button is not None]
-        height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
-        for button in buttons:
-            button.setFixedHeight(height)
-        head = fill(QHBoxLayout(), *row, spacing=4)
+        run, cancel, wipe = self._actions.values()
+        head = fill(QHBoxLayout(), run, cancel, None, wipe, self._use, self.save_button, spacing=4)
         fill(QVBoxLayout(self), head, (self._table, 1), self._status, margins=(8, 4, 8, 4), spacing=4)
 
     def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
@@ -128,51 +109,30 @@ class ComparePanel(QWidget):
         busy : bool
             Methods are running.
         """
-        self._names = [entry.name for entry in entries]
-        self._model.fill(entries, full, busy)
-        self._fit_columns()
+        self.model.fill(entries, full, busy)
+        self._table.resizeColumnsToContents()
         self._enable()
+
+    def show_actions(self, actions: Mapping[str, QAction]) -> None:
+        """Show the actions of `ACTIONS` on buttons."""
+        for id, button in self._actions.items():
+            button.show_action(actions[id])
 
     def settings(self) -> ComparisonSettings:
         """Return the panel's settings."""
         header = self._table.horizontalHeader()
         descending = header.sortIndicatorOrder() == Qt.SortOrder.DescendingOrder
-        return ComparisonSettings(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
+        return ComparisonSettings(frozenset(self.model.ticks), KEYS[header.sortIndicatorSection()], descending)
 
     def restore(self, settings: ComparisonSettings) -> None:
         """Apply settings."""
-        self._model.tick(settings.ticked)
+        self.model.tick(settings.ticked)
         order = Qt.SortOrder.DescendingOrder if settings.descending else Qt.SortOrder.AscendingOrder
         self._table.sortByColumn(KEYS.index(settings.sorted_by), order)
 
-    def _fit_columns(self) -> None:
-        """Fit the column widths to their contents."""
-        table, model = self._table, self._model
-        header_metrics, cell_metrics = table.horizontalHeader().fontMetrics(), table.fontMetrics()
-        for column in range(model.columnCount()):
-            title = model.headerData(column, Qt.Orientation.Horizontal)
-            texts = [model.index(row, column).data() for row in range(model.rowCount())]
-            width = max((cell_metrics.horizontalAdvance(f"{text}0") for text in texts if text), default=0)
-            width += _CHECK_PADDING if column == METHOD else _PADDING
-            table.setColumnWidth(column, max(header_metrics.horizontalAdvance(title) + _PADDING, width))
-
-    def set_state(self, runnable: bool, editable: bool, several: bool, wiping: bool) -> None:
-        """Enable the controls.
-
-        Parameters
-        ----------
-        runnable : bool
-            Methods may run.
-        editable : bool
-            The mesh may be changed.
-        several : bool
-            There are several views.
-        wiping : bool
-            Two views are shown as a wipe.
-        """
-        self._runnable, self._editable = runnable, editable
-        self.wipe_button.setEnabled(several)
-        self.wipe_button.setChecked(wiping)
+    def set_editable(self, editable: bool) -> None:
+        """Set whether the mesh may be changed."""
+        self._editable = editable
         self._enable()
 
     def set_status(self, text: str = "") -> None:
@@ -180,34 +140,20 @@ class ComparePanel(QWidget):
         self._status.setText(text or tr(_HINT))
         self._status.setToolTip(text)
 
-    def run(self) -> None:
-        """Request a run of the selected methods."""
-        if self._run.isEnabled():
-            self.run_requested.emit([name for name in self._names if name in self._model.ticks])
-
-    @property
-    def can_run(self) -> bool:
-        """Return True if methods are selected and may run."""
-        return self._runnable and bool(self._model.ticks)
-
     def _selected(self) -> str:
         """Return the name of the selected row, "" if none is."""
         rows = self._table.selectionModel().selectedRows()
-        return self._model.rows[rows[0].row()].name if rows else ""
+        return self.model.rows[rows[0].row()].name if rows else ""
 
     def _toggle(self, index: QModelIndex) -> None:
         if index.column() != METHOD:
-            view = self._model.index(index.row(), VIEW)
-            if self._model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
-                entry = self._model.rows[index.row()]
-                self.view_toggled.emit(entry.name, not entry.shown)
+            view = self.model.index(index.row(), VIEW)
+            if self.model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
+                entry = self.model.rows[index.row()]
+                self.model.view_toggled.emit(entry.name, not entry.shown)
 
     def _enable(self) -> None:
-        model, name = self._model, self._selected()
-        if self._run.isEnabled() != self.can_run:
-            self._run.setEnabled(self.can_run)
-            self.can_run_changed.emit()
-        self.cancel_button.setEnabled(model.busy)
+        model, name = self.model, self._selected()
         has_mesh = any(one.name == name and one.has_mesh for one in model.rows)
         self._use.setEnabled(self._editable and has_mesh)
-        self.save_button.setEnabled(any(one.record and one.name != INITIAL for one in model.rows) and not model.busy)
+        self.save_button.setEnabled(any(one.record and one.is_method for one in model.rows) and not model.busy)

@@ -1,16 +1,17 @@
-"""Table of a comparison: a row for the initial mesh and one for each method."""
+"""Table of results: a row for the initial mesh, one for each method, and one for each run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from math import floor, log10
 from typing import Any
 
 from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
-from hexmend.quality import REGRESSION_KEYS
+from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES
 from hexmend.quantity import (
     Quantity,
     format_microseconds,
@@ -20,7 +21,7 @@ from hexmend.quantity import (
 )
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.theme.palette import BETTER, WORSE
+from hexmend_app.theme.palette import BETTER, MUTED, WORSE
 from hexmend_app.theme.style import bold, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.row_model import RowModel
@@ -34,10 +35,15 @@ KEYS = ("method", "view", *(quantity.key for quantity in LINES))
 #: Name of the row of the initial mesh.
 INITIAL = "initial"
 
+#: Figures by which one result dominates another, and the largest difference by rounding alone.
+_KEY_FIGURES = ("inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min")
+_ROUNDING = 1e-12
+
 #: Columns of texts, and help of the columns before those of the quantities.
 _TEXTS = (METHOD, VIEW, KEYS.index("outcome"))
 _HELP = (
-    "Select the methods to run. Click a column header to sort.",
+    "Select the methods to run. Click a column header to sort. Grey results are dominated: another one is no worse in "
+    "any key figure, and better in at least one.",
     "Select the results to show in views next to the current mesh.",
 )
 _Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
@@ -60,7 +66,7 @@ class ComparisonRow:
     Parameters
     ----------
     name : str
-        Name of the method, or `INITIAL`.
+        Name of the method, `INITIAL`, or name of a run after "Run: ".
     help : str
         Tooltip of the row.
     record : mapping
@@ -78,9 +84,28 @@ class ComparisonRow:
     has_mesh: bool = False
     shown: bool = False
 
+    @property
+    def is_method(self) -> bool:
+        """True for a method, which can be selected to run."""
+        return self.name in METHODS
+
+    def dominates(self, other: ComparisonRow) -> bool:
+        """Return True if this result is as good as another in all key figures, and better in at least one.
+
+        >>> figures = {"inverted": 0, "invalid": 0, "q_min": 0.4, "q_mean": 0.89, "scaled_jacobian_min": 0.2}
+        >>> a, b = ComparisonRow("a", "", figures), ComparisonRow("b", "", figures | {"inverted": 2})
+        >>> a.dominates(b), b.dominates(a), a.dominates(a)
+        (True, False, False)
+        """
+        pairs = [(key, self.record.get(key), other.record.get(key)) for key in _KEY_FIGURES]
+        if any(own is None or its is None for _, own, its in pairs):
+            return False
+        gains = [SUMMARY_QUANTITIES[key].better * (own - its) for key, own, its in pairs]
+        return min(gains) >= -_ROUNDING and max(gains) > _ROUNDING
+
 
 def title_of(name: str) -> str:
-    """Return the title of a row: the method's title, or `INITIAL`.
+    """Return the title of a row: the method's title, the name of a run, or `INITIAL`.
 
     >>> title_of("local-sd"), title_of(INITIAL)
     ('Local steepest descent', 'initial')
@@ -124,7 +149,7 @@ def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[st
 
 
 class ComparisonModel(RowModel):
-    """Model of the table, with the initial mesh always first, and check boxes for methods to run and meshes to show.
+    """Model of the table, the initial mesh always first, with check boxes for methods to run and meshes to show.
 
     Signals
     -------
@@ -144,6 +169,7 @@ class ComparisonModel(RowModel):
         self._order = (METHOD, Qt.SortOrder.AscendingOrder)
         self._best: list[set[str]] = [set() for _ in LINES]
         self._texts: list[dict[str, str]] = [{} for _ in LINES]
+        self._dominating: dict[str, list[str]] = {}  # titles of the rows that dominate a row
 
     def fill(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows; see `ComparePanel.set_entries` for the parameters."""
@@ -151,6 +177,10 @@ class ComparisonModel(RowModel):
         self.full, self.busy = full, busy
         self._texts = [column_texts(entries, quantity) for quantity in LINES]
         self._best = [best(entries, quantity, texts) for quantity, texts in zip(LINES, self._texts, strict=True)]
+        self._dominating = {
+            one.name: [title_of(other.name) for other in entries if one.name != INITIAL and other.dominates(one)]
+            for one in entries
+        }
         self.set_rows(entries, [one.name for one in entries] == [one.name for one in self.rows])
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
@@ -187,7 +217,7 @@ class ComparisonModel(RowModel):
 
     def flags(self, index: QModelIndex | QPersistentModelIndex) -> Qt.ItemFlag:
         entry, selectable = self.rows[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
-        if index.column() == METHOD and entry.name != INITIAL:
+        if index.column() == METHOD and entry.is_method:
             return selectable | _Flag.ItemIsUserCheckable if not self.busy else selectable
         if index.column() == VIEW:
             can_toggle = entry.has_mesh and (entry.shown or not self.full)
@@ -208,13 +238,17 @@ class ComparisonModel(RowModel):
         if role == _Role.ToolTipRole:
             if column == VIEW and entry.has_mesh and self.full and not entry.shown:
                 return tr("Close a view first: at most four can be open.")
-            return f"<qt>{entry.help}</qt>"
+            dominating = self._dominating[entry.name]
+            names = tr("<br>Dominated by {names}.", names=escape(", ".join(dominating))) if dominating else ""
+            return f"<qt>{entry.help}{names}</qt>"
+        if role == _Role.ForegroundRole and column == METHOD and self._dominating[entry.name]:
+            return QBrush(QColor(str(MUTED)))
         if quantity is not None:
             return self._emphasis(entry, quantity, column - _FIRST, role)
         return None
 
     def _check(self, entry: ComparisonRow, column: int) -> Qt.CheckState | None:
-        if column == METHOD and entry.name != INITIAL:
+        if column == METHOD and entry.is_method:
             return _CHECKS[entry.name in self.ticks]
         return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
 
@@ -228,7 +262,7 @@ class ComparisonModel(RowModel):
             return ", ".join([texts[entry.name], *[tr("best")] * is_best, *[tr("worse than initial")] * regressed])
         if role == _Role.ForegroundRole:
             bad = regressed or (quantity.key in ("inverted", "invalid") and entry.record.get(quantity.key))
-            colour = WORSE if bad else BETTER if is_best else None
+            colour = WORSE if bad else BETTER if is_best else MUTED if self._dominating[entry.name] else None
             return colour and QBrush(QColor(str(colour)))
         return None
 
@@ -247,7 +281,7 @@ class ComparisonModel(RowModel):
     def title(self, column: int) -> str:
         """Return the title of a column."""
         if column < _FIRST:
-            return (tr("Method"), tr("View"))[column]
+            return (tr("Method or run"), tr("View"))[column]
         return tr(label(LINES[column - _FIRST], [one.record for one in self.rows]))
 
     def help(self, column: int) -> str:

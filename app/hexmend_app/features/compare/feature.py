@@ -1,27 +1,29 @@
-"""Feature that compares methods on the same mesh."""
+"""Feature that compares methods and runs on the same mesh."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 from typing import Any
 
 from hexmend.energy.norm import ObjectiveNorm
-from hexmend.quality import objective
+from hexmend.quality import objective, regressions
 from hexmend.report.comparison import LINES, record_table, write_comparison
 from hexmend.report.markdown import markdown
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
-from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
+from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.wording import counted, duration
 
 #: Methods selected by default: the simplest, a fast one, an optimiser of the thesis, and the default method.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
@@ -30,9 +32,10 @@ _KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)"
 
 
 class FeatureCompare(Feature):
-    """Runs comparisons, and shows their results in a table and in views."""
+    """Runs comparisons, and shows their results and those of all runs in a table and in views."""
 
     order = 58
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -41,26 +44,23 @@ class FeatureCompare(Feature):
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
-        panel.run_requested.connect(lambda names: session.run_setup.use(lambda stage: self._start(names, stage)))
-        panel.cancel_button.clicked.connect(self._comparison.cancel)
-        panel.view_toggled.connect(self._toggle)
+        panel.model.view_toggled.connect(self._toggle)
+        panel.model.ticked.connect(host.refresh_soon)
         panel.use_requested.connect(self._use)
-        panel.wipe_button.clicked.connect(self._views.set_wiping)
         panel.save_button.clicked.connect(self.ask)
-        panel.can_run_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that run and cancel a comparison."""
         return (
             Action(
                 id="compare",
-                text=tr("&Run comparison"),
+                text=tr("Co&mpare methods"),
                 menu="Compare",
                 keys="F6",
                 icon="play",
                 help=tr("Run the methods selected in the panel in turn. The mesh does not change."),
-                handle=self.panel.run,
-                enabled=lambda: self.panel.can_run,
+                handle=self.run,
+                enabled=lambda: self._runnable and bool(self.panel.model.ticks),
             ),
             Action(
                 id="cancel_comparison",
@@ -80,6 +80,10 @@ class FeatureCompare(Feature):
             StatePart(name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore),
         )
 
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.panel.show_actions({id: self.host.action(id) for id in ACTIONS})
+
     def panels(self) -> Sequence[Panel]:
         """Return the panel of methods."""
         return (
@@ -90,19 +94,22 @@ class FeatureCompare(Feature):
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.COMPARE,
                 order=20,
-                help=tr("Results of each method in a table and in views."),
+                help=tr("Results of methods and of all runs in a table and in views, and which of them dominate."),
             ),
         )
 
     def refresh(self) -> None:
         """Show results and progress."""
         comparison, views, session = self._comparison, self._views, self.session
-        if self._seen.changed("table", comparison.results, comparison.initial, views.all, comparison.busy):
+        shown = self.panel.isVisible() and session.document.is_open
+        runs = [one for one in session.history.records if one.rows and not one.holds_times] if shown else []
+        state = [(one, one.newest, one.end) for one in runs]
+        if self._seen.changed("table", comparison.results, comparison.initial, views.all, comparison.busy, state):
             norm = common_norm(one.row for one in comparison.results)
-            entries = [self._initial(norm), *(self._entry(name, comparison.of(name), norm) for name in METHODS)]
-            self.panel.set_entries(entries, views.full, comparison.busy)
-        runnable = session.editable and not comparison.busy  # a second comparison would distort the times
-        self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
+            methods = [self._entry(name, comparison.of(name), norm) for name in METHODS]
+            rows = [self._initial(norm), *(self._run_entry(one, norm) for one in runs), *methods]
+            self.panel.set_entries(rows, views.full, comparison.busy)
+        self.panel.set_editable(session.editable)
         self._show_status()
 
     def _close_results(self) -> None:
@@ -114,12 +121,30 @@ class FeatureCompare(Feature):
 
     # The table
 
+    @property
+    def _initial_state(self) -> State | None:
+        """Mesh from which the compared methods started, else that at the start; None without a mesh."""
+        document = self.session.document
+        return self._comparison.initial or (document.start if document.is_open else None)
+
     def _initial(self, norm: ObjectiveNorm) -> ComparisonRow:
-        state = self._comparison.initial
+        state = self._initial_state
         if state is None:
             return ComparisonRow(INITIAL, tr("The mesh from which the methods start."), {})
         help = tr("The mesh from which the methods started.")
         return ComparisonRow(INITIAL, help, _mesh_values(state, norm), True, self._views.shows(state))
+
+    def _run_entry(self, record: RunRecord, norm: ObjectiveNorm) -> ComparisonRow:
+        """Return the row of a run: its result, or while it is active, its newest iteration."""
+        last, end = record.rows[-1], record.end
+        values = {one.key: last.get(one.key) for one in LINES if one.key != "objective"}
+        values |= {"iterations": record.newest, "kept": record.result}
+        values["seconds_per_iteration"] = last["seconds"] / record.newest if record.newest else None
+        values["outcome"] = "" if record.outcome is None else record.outcome.key
+        if end is not None:
+            values |= _mesh_values(end, norm) | {"worse": regressions(record.start.summary, end.summary)}
+        help = f"<b>{escape(record.name)}</b><br>{escape(record.settings)}<br>{escape(record.message)}"
+        return ComparisonRow(_key(record), help, values, end is not None, end is not None and self._views.shows(end))
 
     def _entry(self, name: str, result: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
         method = METHODS[name]
@@ -145,7 +170,7 @@ class FeatureCompare(Feature):
             self.panel.set_status(tr("Stopping {title} after this iteration…", title=title_of(progress.method)))
         else:
             step = (
-                tr("iteration {number:,}, {seconds:.1f} s", number=progress.iteration, seconds=progress.seconds)
+                tr("iteration {number:,}, {time}", number=progress.iteration, time=duration(progress.seconds))
                 if progress.iteration
                 else tr("preparing…")
             )
@@ -161,8 +186,17 @@ class FeatureCompare(Feature):
 
     # Requests of the user
 
-    def _start(self, names: list[str], stage: Stage) -> None:
-        if self.session.editable:
+    @property
+    def _runnable(self) -> bool:
+        return self.session.editable and not self._comparison.busy  # a second comparison would distort the times
+
+    def run(self) -> None:
+        """Run the selected methods; with invalid limits, show them."""
+        self.session.run_setup.use(self._start)
+
+    def _start(self, stage: Stage) -> None:
+        if self._runnable:
+            names = [name for name in METHODS if name in self.panel.model.ticks]
             smoothers = [self.session.run_setup.smoother_of(name) for name in names]
             self.session.commands.when_memory_suffices(smoothers, lambda: self._compare(smoothers, stage))
 
@@ -173,7 +207,14 @@ class FeatureCompare(Feature):
         self.host.show_panel("compare")  # its key starts it from anywhere
 
     def _state_of(self, name: str) -> State:
-        return self._comparison.initial if name == INITIAL else self._comparison.of(name).state
+        if name == INITIAL:
+            return self._initial_state
+        record = self._run_of(name)
+        return self._comparison.of(name).state if record is None else record.end
+
+    def _run_of(self, name: str) -> RunRecord | None:
+        """Return the run of a row; None for a method and the initial mesh."""
+        return next((one for one in self.session.history.records if _key(one) == name), None)
 
     def _toggle(self, name: str, on: bool) -> None:
         state = self._state_of(name)
@@ -183,6 +224,10 @@ class FeatureCompare(Feature):
             self._views.close_view(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
     def _use(self, name: str) -> None:
+        record = self._run_of(name)
+        if record is not None:
+            self.session.timeline.choose(record)
+            return
         title = "restore initial mesh" if name == INITIAL else METHODS[name].title
         self.session.commands.adopt_positions(title, self._state_of(name))
 
@@ -216,6 +261,11 @@ class FeatureCompare(Feature):
             lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
             tr("Table of {count} saved to {path}", count=counted(len(self._comparison.results), "method"), path=path),
         )
+
+
+def _key(record: RunRecord) -> str:
+    """Return the name of the row of a run, which no method has."""
+    return tr("Run: {name}", name=record.name)
 
 
 def _mesh_values(state: State, norm: ObjectiveNorm) -> dict[str, Any]:

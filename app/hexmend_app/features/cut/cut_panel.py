@@ -11,11 +11,10 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.cut_settings import CutPanelSettings
-from hexmend_app.features.cut.depth_page import DepthPage
+from hexmend_app.features.cut.number_pages import DepthPage, SpherePage
 from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
-from hexmend_app.features.cut.sphere_page import SpherePage
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Plane
 from hexmend_app.theme.spacing import fill

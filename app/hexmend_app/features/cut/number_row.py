@@ -30,6 +30,11 @@ class NumberRow(QWidget):
     low : float, optional
         Lower bound.
 
+    Attributes
+    ----------
+    values : tuple of float
+        The numbers, not rounded.
+
     Signals
     -------
     changed(tuple of float)
@@ -40,7 +45,7 @@ class NumberRow(QWidget):
 
     def __init__(self, names: Sequence[str], help: str, low: float | None = None, parent: QWidget | None = None):
         super().__init__(parent)
-        self._values = tuple(1.0 for _ in names)
+        self.values = tuple(1.0 for _ in names)
         self._boxes = [NumberBox(Parameter(name, float, 1.0, low, None, None, "", "")) for name in names]
         for at, (name, box) in enumerate(zip(names, self._boxes, strict=True)):
             set_help(box, name, help)
@@ -53,16 +58,16 @@ class NumberRow(QWidget):
 
     def set_values(self, values: Sequence[float]) -> None:
         """Show numbers; emits no signal, and leaves text that is being typed."""
-        self._values = tuple(values)
-        for box, value in zip(self._boxes, self._values, strict=True):
+        self.values = tuple(values)
+        for box, value in zip(self._boxes, self.values, strict=True):
             if _rounded(box.value()) != _rounded(value):
                 box.set_value(_rounded(value))
 
     def _on_changed(self, at: int) -> None:
         typed = self._boxes[at].value()
-        if typed != _rounded(self._values[at]):
-            self._values = (*self._values[:at], typed, *self._values[at + 1 :])
-            self.changed.emit(self._values)
+        if typed != _rounded(self.values[at]):
+            self.values = (*self.values[:at], typed, *self.values[at + 1 :])
+            self.changed.emit(self.values)
 
 
 def _rounded(value: float) -> float:

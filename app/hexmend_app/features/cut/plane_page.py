@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSlider, QWidget
 
+from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.theme.style import icon, labelled, set_help, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import icon, labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
-from hexmend_app.widgets.wording import position
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _TICKS = 1000
@@ -58,20 +60,19 @@ class PlanePage(QWidget):
             tr("Position"),
             tr("Position of the plane; arrow keys move it by 1/1000 of the mesh's extent."),
         )
-        self._value = QLabel()
-        self._value.setFont(tabular(self._value.font()))
-        self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
-        set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
+        self._value = NumberRow([tr("Position in mesh units")], tr("Position along the plane's normal, in mesh units."))
+        self._value.setFixedWidth(76)
         grid = form_grid(self, tr("Thickness"))
-        for row, (text, widget, companion) in enumerate(
-            ((tr("Axis"), self._axis, self.flip), (tr("Position"), self._slider, self._value))
-        ):
-            for column, cell in enumerate((labelled(text, widget), widget, companion)):
-                grid.addWidget(cell, row, column)
+        axis = fill(QHBoxLayout(), (self._axis, 1), self.flip, spacing=4)
+        position = fill(QHBoxLayout(), (self._slider, 1), self._value, spacing=4)
+        rows = ((tr("Axis"), self._axis, axis), (tr("Position"), self._slider, position))
+        for row, (text, widget, line) in enumerate(rows):
+            grid.addWidget(labelled(text, widget), row, 0)
+            grid.addLayout(line, row, 1)
 
         self._axis.chosen.connect(self._on_axis)
         self._slider.valueChanged.connect(self._on_slider)
+        self._value.changed.connect(lambda values: self._move_to(*values))
         self.flip.clicked.connect(lambda: self._change(self._plane.flipped()))
         self._refresh()
 
@@ -102,8 +103,11 @@ class PlanePage(QWidget):
 
     def _on_slider(self, tick: int) -> None:
         low, high = self._span()
+        self._move_to(low + (high - low) * tick / _TICKS)
+
+    def _move_to(self, coordinate: float) -> None:
+        """Move the plane along its normal to a position on the slider's axis."""
         direction, centre = self._direction(), self._bounds.mean(axis=0)
-        coordinate = low + (high - low) * tick / _TICKS
         point = centre + direction * (coordinate - centre @ direction)
         self._change(dataclasses.replace(self._plane, point=tuple(point)))
 
@@ -122,4 +126,6 @@ class PlanePage(QWidget):
             # A plane of the previous mesh may be farther away than an int of Qt can hold.
             fraction = min(max((coordinate - low) / (high - low), 0.0), 1.0) if high > low else 0.0
             self._slider.setValue(round(_TICKS * fraction))
-        self._value.setText(position(coordinate, float(np.ptp(self._bounds, axis=0).max())))
+        extent = float(np.ptp(self._bounds, axis=0).max())
+        decimals = 3 - math.floor(math.log10(extent)) if extent > 0 else 3  # about a thousandth of the mesh
+        self._value.set_values((round(coordinate, decimals),))

@@ -1,4 +1,4 @@
-"""Panel of mesh problems: a row for each finding, with buttons to show and repair it."""
+"""Panel of mesh problems: a paragraph for each finding, with links to show and repair it."""
 
 from __future__ import annotations
 
@@ -6,72 +6,85 @@ from collections.abc import Sequence
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.theme.spacing import clear, fill, on_grid
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import scrolled
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.link_label import LinkLabel
 
 _CHECKING = "Checking the mesh…"
-_HEALTHY = "No problems found. The doctor does not check the quality of the hexes."
 
 
 class DoctorPanel(QWidget):
-    """Panel that lists findings.
+    """Panel that lists findings, and says what helps against inverted hexes.
 
     Signals
     -------
     show_requested(int)
-        The user pressed Show of the finding with this index.
+        The user follows the link Show of the finding with this index.
     repair_requested(list)
         The user repairs these kinds of problem; an empty list means all.
+    smooth_requested, pad_requested
+        The user follows one of these links.
     """
 
     show_requested = Signal(int)
     repair_requested = Signal(list)
+    smooth_requested = Signal()
+    pad_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._head = note(tr(_CHECKING))
+        self.text = LinkLabel()
+        self.text.setWordWrap(True)
+        self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.text.setAccessibleName(tr("Findings"))
+        self.text.setTextInteractionFlags(
+            self.text.textInteractionFlags() | Qt.TextInteractionFlag.TextSelectableByMouse
+        )
+        self.text.linkActivated.connect(self._follow)
         self._all = QPushButton(icon("bandage"), tr("Repair all"))
         set_help(self._all, tr("Repair all"), tr("Repair all problems that can be repaired. Can be undone."))
         self._all.clicked.connect(lambda: self.repair_requested.emit([]))
         self._notes = note()
-        self._notes.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._notes.hide()
-        self._rows = on_grid(QGridLayout())
-        self._rows.setColumnStretch(0, 1)
-        self._rows.setVerticalSpacing(8)
-        self._repair_buttons: list[QPushButton] = []
         inside = QWidget()
-        head = fill(QHBoxLayout(), (self._head, 1), self._all)
-        fill(QVBoxLayout(inside), head, self._notes, self._rows, None, margins=(8, 8, 8, 8))
+        head = fill(QHBoxLayout(), (self._notes, 1), None, self._all)
+        fill(QVBoxLayout(inside), head, (self.text, 1), margins=(8, 8, 8, 8))
         fill(QVBoxLayout(self), scrolled(inside), margins=(0, 0, 0, 0))
         self.show_findings(None)
 
-    def show_findings(self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None) -> None:
-        """List the findings in a mesh; None while it is being checked, with `problem` if the check failed."""
-        clear(self._rows)
-        self._repair_buttons = []
+    def show_findings(
+        self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None, inverted: int = 0
+    ) -> None:
+        """List the findings in a mesh.
+
+        Parameters
+        ----------
+        findings : sequence of Finding or None
+            None while the mesh is being checked.
+        problem : str
+            Why the check failed.
+        mesh : Mesh, optional
+        inverted : int
+            Number of inverted hexes, which are no finding of the doctor.
+        """
+        paragraphs = []
         if findings is None:
-            self._head.setText(problem or tr(_CHECKING))
-        else:
-            count = len(findings)
-            self._head.setText(tr("{findings}:", findings=counted(count, "finding")) if count else tr(_HEALTHY))
-        for row, finding in enumerate(findings or ()):
-            self._add(row, finding, mesh)
-        self._all.setVisible(len(self._repair_buttons) > 1)
+            paragraphs.append(escape(problem or tr(_CHECKING)))
+        if inverted:
+            links = {"smooth": f'<a href="smooth">{tr("Smooth")}</a>', "pad": f'<a href="pad">{tr("Pad")}</a>'}
+            hexes = tr("1 hex is") if inverted == 1 else tr("{count:,} hexes are", count=inverted)
+            paragraphs.append(tr("{hexes} inverted: {smooth} or {pad}.", hexes=hexes, **links))
+        elif findings is not None and not findings:
+            paragraphs.append(tr("No problems found."))
+        paragraphs += [_paragraph(at, finding, mesh) for at, finding in enumerate(findings or ())]
+        self.text.setText("".join(f'<p style="margin: 0 0 8px">{text}</p>' for text in paragraphs))
+        self._all.setVisible(sum(finding.mendable for finding in findings or ()) > 1)
 
     def show_notes(self, notes: Sequence[str]) -> None:
         """Show what was changed when the file was read."""
@@ -79,30 +92,27 @@ class DoctorPanel(QWidget):
         self._notes.setVisible(bool(notes))
 
     def set_busy(self, busy: bool) -> None:
-        """Disable the repair buttons while the mesh cannot be edited."""
-        for button in (self._all, *self._repair_buttons):
-            button.setEnabled(not busy)
+        """Disable repairs while the mesh cannot be edited."""
+        self._all.setEnabled(not busy)
 
-    def _add(self, row: int, finding: Finding, mesh: Mesh | None) -> None:
-        problem, location = PROBLEMS[finding.kind], finding.location_text(mesh=mesh)
-        text = QLabel(
-            f"<b>{escape(problem.title)}.</b> {escape(finding.message)} {escape(finding.remedy)}"
-            + (f"<br>{escape(location).capitalize()}" if location else "")
-        )
-        text.setTextFormat(Qt.TextFormat.RichText)
-        text.setWordWrap(True)
-        text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._rows.addWidget(text, row, 0)
-        if location:
-            show = QPushButton(icon("eye-outline"), tr("Show"))
-            help = tr("Show only these hexes and their neighbours. Press Esc to show all.")
-            set_help(show, tr("Show: {title}", title=problem.title), help)
-            show.clicked.connect(lambda: self.show_requested.emit(row))
-            self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)
-        if finding.mendable:
-            repair = QPushButton(icon("bandage"), tr("Repair"))
-            action = f"{problem.action[:1].upper()}{problem.action[1:]}"
-            set_help(repair, tr("Repair: {title}", title=problem.title), tr("{action}. Can be undone.", action=action))
-            repair.clicked.connect(lambda: self.repair_requested.emit([finding.kind]))
-            self._rows.addWidget(repair, row, 2, Qt.AlignmentFlag.AlignTop)
-            self._repair_buttons.append(repair)
+    def _follow(self, link: str) -> None:
+        command, _, argument = link.partition(" ")
+        if command == "show":
+            self.show_requested.emit(int(argument))
+        elif command == "repair":
+            self.repair_requested.emit([argument])
+        else:
+            (self.smooth_requested if command == "smooth" else self.pad_requested).emit()
+
+
+def _paragraph(at: int, finding: Finding, mesh: Mesh | None) -> str:
+    """Return a finding as HTML, with links to show its hexes and to repair it."""
+    problem, location = PROBLEMS[finding.kind], finding.location_text(mesh=mesh)
+    text = f"<b>{escape(problem.title)}.</b> {escape(finding.message)} {escape(finding.remedy)}"
+    links = []
+    if location:
+        text += f" {escape(location).capitalize()}."
+        links.append(f'<a href="show {at}">{tr("Show")}</a>')
+    if finding.mendable:
+        links.append(f'<a href="repair {finding.kind}">{tr("Repair: {action}", action=escape(problem.action))}</a>')
+    return " · ".join([text, *links])

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.doctor import Finding
-from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
+from hexmend_app.host import ChangeReport
 from hexmend_app.translation import tr
 
 
@@ -25,11 +25,18 @@ class FeatureDoctor(Feature):
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
         self.panel.repair_requested.connect(self._repair)
-        repairer = self.session.repairer
-        repairer.began.connect(self._on_began)
-        repairer.ended.connect(self._on_ended)
-        repairer.failed.connect(self._on_failed)
-        repairer.cancelled.connect(self._on_cancelled)
+        self.panel.smooth_requested.connect(lambda: host.show_panel("run"))
+        self.panel.pad_requested.connect(lambda: host.action("pad").trigger())
+        ChangeReport(
+            host,
+            self.session.repairer,
+            key="repair",
+            working=tr("Repairing mesh…"),
+            cancel_help=tr("Cancel the repair. The mesh does not change."),
+            failed=tr("Mesh not repaired"),
+            cancelled=tr("Repair cancelled."),
+        )
+        self.session.repairer.ended.connect(self._on_ended)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that open the panel and repair all problems."""
@@ -51,7 +58,7 @@ class FeatureDoctor(Feature):
                 icon="bandage",
                 help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
                 handle=lambda: self._repair([]),
-                enabled=lambda: self.session.editable,
+                enabled=lambda: self.session.editable and self._can_repair(),
             ),
         )
 
@@ -81,8 +88,13 @@ class FeatureDoctor(Feature):
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
         if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
-            self.panel.show_findings(findings, tr("Mesh not checked: {error}", error=error) if error else "", mesh)
-            self.panel.set_busy(not session.editable)
+            problem = tr("Mesh not checked: {error}", error=error) if error else ""
+            self.panel.show_findings(findings, problem, mesh, session.document.now.summary.inverted)
+
+    def _can_repair(self) -> bool:
+        """Return True unless the doctor has found nothing that can be repaired."""
+        findings = self.session.mesh_checker.of(self.session.document.now.mesh)
+        return findings is None or any(finding.mendable for finding in findings)
 
     def _show(self, row: int) -> None:
         finding, mesh = self._listed[row], self.session.document.now.mesh
@@ -98,27 +110,8 @@ class FeatureDoctor(Feature):
     def _repair(self, kinds: list[str]) -> None:
         self.session.commands.repair(kinds)
 
-    def _on_began(self) -> None:
-        help = tr("Cancel the repair. The mesh does not change.")
-        self.host.busy.show_work("repair", tr("Repairing mesh…"), tr("Cancel"), help, self.session.repairer.cancel)
-        self.host.refresh_soon()
-
     def _on_ended(self, repaired: tuple[Finding, ...]) -> None:
-        self.host.busy.done("repair")
         messages = " ".join(finding.message for finding in repaired)
         self.host.messages.show_info(
             tr("Repaired: {messages}", messages=messages) if repaired else tr("Nothing to repair.")
         )
-        self.host.refresh_soon()
-
-    def _on_failed(self, error: Exception) -> None:
-        self.host.busy.done("repair")
-        self.host.refresh_soon()
-        if not isinstance(error, HexmendError):
-            raise error
-        self.host.messages.show_error(tr("Mesh not repaired"), str(error))
-
-    def _on_cancelled(self) -> None:
-        self.host.busy.done("repair")
-        self.host.messages.show_info(tr("Repair cancelled."))
-        self.host.refresh_soon()

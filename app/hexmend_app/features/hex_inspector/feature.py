@@ -30,9 +30,6 @@ _BOUNDARY_CLASSES = {
 }
 _LEFT = {NodeClass.CORNER: "its corner", NodeClass.CURVE: "its curve", NodeClass.PATCH: "its patch"}
 
-#: Panels that show or use the selection as well: while one of them is in front, a click in the view leaves it there.
-_SELECTION_PANELS = ("node", "tags")
-
 
 class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
@@ -236,7 +233,7 @@ class FeatureHexInspector(Feature):
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None and not any(self.host.in_front(id) for id in _SELECTION_PANELS):
+        if hit is not None and not self.host.in_front("node"):  # that panel shows the selection as well
             self.host.offer_panel("hex")
 
     def _go_to_worst(self, h: int) -> None:

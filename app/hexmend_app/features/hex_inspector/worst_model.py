@@ -62,7 +62,7 @@ class WorstModel(RowModel):
         row, column = index.row(), index.column()
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
-                return f"{self.rows[row]:,}"
+                return str(self.rows[row])
             if column == ID:
                 return "" if self.ids is None else str(self.ids[row])
             if column == STATE:

@@ -1,4 +1,4 @@
-"""Displacement of the mesh since a reference: colours, arrows and counts."""
+"""Displacement of the mesh since a reference: arrows and counts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
-from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
+from hexmend_app.picture.displacement import Displacement
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.translation import tr
 
@@ -21,11 +21,9 @@ class FeatureMovement(Feature):
         super().__init__(host)
         self._document, view = self.session.document, self.session.view
         self._view = view
-        self._metric = view.look.colours.metric  # the last one that is not a displacement
         self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(movement=traces))
-        panel.colours.chosen.connect(lambda name: view.colour_by(name or self._metric))
         panel.show_newly.clicked.connect(self._show_newly_invalid)
 
     def panels(self) -> Sequence[Panel]:
@@ -35,23 +33,18 @@ class FeatureMovement(Feature):
                 id="movement",
                 title=tr("Movement"),
                 widget=self.panel,
-                place=PanelPlace.DRAWER,
-                group=PanelGroup.SMOOTH,
-                order=30,
+                place=PanelPlace.TOOLS,
+                group=PanelGroup.LOOK,
+                tab=tr("Look"),
+                order=22,
                 help=tr("Displacement of the nodes and change of quality since a reference state."),
-                scrolls=True,
             ),
         )
 
     def refresh(self) -> None:
         """Show the settings of the view, the counts of moved nodes and the number of arrows."""
         self.panel.setEnabled(self._document.is_open)
-        look = self._view.look
-        coloured = look.colours.metric in DISPLACEMENT_QUANTITIES
-        if not coloured:
-            self._metric = look.colours.metric
-        self.panel.set_traces(look.movement)
-        self.panel.set_colours(look.colours.metric if coloured else "")
+        self.panel.set_traces(self._view.look.movement)
         if not (self.panel.isVisible() and self._document.is_open):
             return
         displacement = self._displacement

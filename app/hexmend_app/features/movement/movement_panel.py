@@ -1,68 +1,52 @@
-"""Panel of the displacement: reference state, colours, arrows and counts."""
+"""Panel of the displacement: reference state, arrows and counts."""
 
 from __future__ import annotations
 
 import dataclasses
 from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QPushButton, QWidget
 
 from hexmend_app.picture.appearance import Arrows, Since, Traces
-from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
+from hexmend_app.picture.displacement import DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
-from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import labelled, note, set_help, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.segmented import Segmented
+from hexmend_app.widgets.form_grid import form_grid
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.wording import counted, figure, short_number
 
-_SINCE = [
-    (Since.OPENED.value, "File opened", "Compare with the mesh as it was opened."),
-    (Since.RUN.value, "Run started", "Compare with the mesh at the start of the run."),
-    (Since.ITERATION.value, "Last iteration", "Compare each iteration with the previous stored iteration."),
-]
-_COLOURS = [
-    ("", "Quality", "Colour by the metric selected in the Colour panel."),
+_SINCE = (
+    (Since.OPENED, "file opened", "Compare with the mesh as it was opened."),
+    (Since.RUN, "run started", "Compare with the mesh at the start of the run."),
+    (Since.ITERATION, "last iteration", "Compare each iteration with the previous stored iteration."),
+)
+_ARROWS = (
+    (Arrows.NONE, "none", "No arrows."),
     (
-        "moved-most",
-        DISPLACEMENT_QUANTITIES["moved-most"].label,
-        "Colour each hex by the largest displacement of its nodes.",
-    ),
-    (
-        "q-change",
-        DISPLACEMENT_QUANTITIES["q-change"].label,
-        "Colour each hex by the increase (teal) or decrease (brown) of its quality; newly invalid and repaired hexes "
-        "have separate colours.",
-    ),
-    (
-        "surface-distance",
-        DISPLACEMENT_QUANTITIES["surface-distance"].label,
-        "Colour each hex by the distance of its boundary nodes from the reference surface, for a sliding boundary.",
-    ),
-]
-_ARROWS = [
-    (Arrows.NONE.value, "None", "No arrows."),
-    (
-        Arrows.SIGHT.value,
-        "Visible",
+        Arrows.SIGHT,
+        "at visible faces",
         "Arrows at the nodes of visible faces, from the old to the new position; pale where they are hidden. Boundary "
         "nodes move only if they slide: cut or peel the mesh to see others.",
     ),
-    (Arrows.ALL.value, "All shown", "Arrows at the nodes of all shown hexes, drawn through the faces before them."),
-]
-_FIGURES = {
-    "Nodes": "Number of nodes that have moved.",
-    "Distance": "Displacement of these nodes, in mean edge lengths of the mesh as it was opened.",
-    "Hexes": "Hexes with a higher or lower q(H) than in the reference state.",
-    "Invalid": "Hexes that became invalid since the reference state, and hexes that no longer are.",
-}
-_DRAWN = "Number and length of the arrows."
+    (Arrows.ALL, "at all shown hexes", "Arrows at the nodes of all shown hexes, drawn through the faces before them."),
+)
+_SINCE_HELP = (
+    "State with which the displacement compares the mesh: in the colours Distance moved, Change of q(H) and Distance "
+    "from the surface, in the arrows, and in the counts below."
+)
 _FACTOR = "Scale factor of the arrows relative to the displacement."
 
 
 class MovementPanel(QWidget):
     """Sets how a displacement is displayed, and shows its size.
+
+    Attributes
+    ----------
+    since, arrows : ComboBox
+    factor : QDoubleSpinBox
+    show_newly : QPushButton
 
     Signals
     -------
@@ -75,9 +59,9 @@ class MovementPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._traces = Traces()
-        self.since = Segmented(tr("Compare with"), _translated(_SINCE))
-        self.colours = Segmented(tr("Colours of the movement"), _translated(_COLOURS))
-        self.arrows = Segmented(tr("Arrows"), _translated(_ARROWS))
+        self.since, self.arrows = _box(_SINCE), _box(_ARROWS)
+        set_help(self.since, tr("Since"), tr(_SINCE_HELP))
+        set_help(self.arrows, tr("Arrows"), tr("Arrows from the old to the new positions of nodes."))
         self.factor = QDoubleSpinBox()
         self.factor.setRange(0.01, 100_000)
         self.factor.setDecimals(2)
@@ -87,54 +71,32 @@ class MovementPanel(QWidget):
         self.factor.setFont(tabular(self.factor.font()))
         set_help(self.factor, tr("Length of arrows"), tr(_FACTOR))
         self.show_newly = QPushButton(tr("Show newly invalid"))
-        self._drawn = note()
-        set_help(self._drawn, tr("Number of arrows"), tr(_DRAWN))
-        self._figures = {name: _figure_label() for name in _FIGURES}
-        self._lay_out()
-        self.since.chosen.connect(lambda key: self._change(since=Since(key)))
-        self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
+        self._drawn, self._counts = note(), note()
+        self._drawn.setAccessibleName(tr("Number of arrows"))
+        self._counts.setAccessibleName(tr("Counts of the movement"))
+        grid = form_grid(self)
+        rows = ((tr("Since"), self.since), (tr("Arrows"), self.arrows), (tr("Length"), self.factor))
+        for row, (text, widget) in enumerate(rows):
+            grid.addWidget(labelled(text, widget), row, 0)
+            grid.addWidget(widget, row, 1)
+        for row, widget in enumerate((self._drawn, self._counts, self.show_newly), start=len(rows)):
+            grid.addWidget(widget, row, 0, 1, 2)
+        self.since.activated.connect(lambda: self._change(since=Since(self.since.currentData())))
+        self.arrows.activated.connect(lambda: self._change(arrows=Arrows(self.arrows.currentData())))
         self.factor.valueChanged.connect(lambda value: self._change(factor=value))
         self.set_traces(self._traces)
         self.set_counts(None, "", 0)
         self.set_arrows(0, 0)
 
-    def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(4)
-        grid.setColumnStretch(1, 1)
-        lengths = fill(QHBoxLayout(), self.factor, (self._drawn, 1))
-        rows = ((tr("Since"), self.since), (tr("Colours"), self.colours), (tr("Arrows"), self.arrows))
-        for row, (text, buttons) in enumerate(rows):
-            grid.addWidget(labelled(text, buttons), row, 0)
-            grid.addWidget(buttons, row, 1)
-        grid.addLayout(lengths, 3, 1)
-        invalid = fill(QHBoxLayout(), (self._figures["Invalid"], 1), self.show_newly)
-        for row, (text, label) in enumerate(self._figures.items(), start=4):
-            grid.addWidget(QLabel(tr(text)), row, 0)
-            set_help(label, tr(text), tr(_FIGURES[text]))
-            if text == "Invalid":
-                grid.addLayout(invalid, row, 1)
-            else:
-                grid.addWidget(label, row, 1)
-        grid.setRowStretch(8, 1)
-
-    # Display
-
     def set_traces(self, traces: Traces) -> None:
         """Show the reference state and the arrows, without emitting a signal."""
         self._traces = traces
-        self.since.set_value(traces.since.value)
-        self.arrows.set_value(traces.arrows.value)
+        self.since.setCurrentIndex(self.since.findData(traces.since.value))
+        self.arrows.setCurrentIndex(self.arrows.findData(traces.arrows.value))
         self.factor.setEnabled(traces.arrows is not Arrows.NONE)
         if self.factor.value() != traces.factor:
             with QSignalBlocker(self.factor):
                 self.factor.setValue(traces.factor)
-
-    def set_colours(self, name: str) -> None:
-        """Show the quantity of the colours, a name of `DISPLACEMENT_QUANTITIES` or "", without emitting a signal."""
-        self.colours.set_value("moved-most" if name == "moved-mean" else name)
 
     def set_arrows(self, drawn: int, moved: int) -> None:
         """Show the number of arrows that are drawn, of `moved` nodes."""
@@ -156,9 +118,7 @@ class MovementPanel(QWidget):
         self.show_newly.setEnabled(enabled)
         help = tr("Show only the hexes that became invalid since the reference state; Esc shows all hexes again.")
         set_help(self.show_newly, tr("Show newly invalid"), help if enabled else tr("No hex is newly invalid."))
-        texts = (tr("No mesh is open."), "", "", "") if counts is None else _count_texts(counts, name, free)
-        for label, text in zip(self._figures.values(), texts, strict=True):
-            label.setText(text)
+        self._counts.setText(tr("No mesh is open.") if counts is None else counts_in_words(counts, name, free))
 
     def _change(self, **fields: Any) -> None:
         traces = dataclasses.replace(self._traces, **fields)
@@ -188,35 +148,25 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     return tr("{number}, {factor}true length.", number=number, factor=factor)
 
 
-def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
-    distance = (
-        tr("mean {mean}, max {max}", mean=figure(counts.mean), max=figure(counts.largest)) if counts.moved else "–"
-    )
+def counts_in_words(counts: DisplacementCounts, name: str, free: int) -> str:
+    """Describe the nodes that have moved since a reference state, and the hexes whose quality has changed."""
     slid = tr(" and {count:,} boundary", count=counts.slid) if counts.slid else ""
-    return (
-        tr(
-            "{moved:,} of {free:,} free{slid} nodes moved since {name}",
-            moved=counts.moved - counts.slid,
-            free=free,
-            slid=slid,
-            name=tr(name),
-        ),
-        distance,
-        tr("{better:,} better, {worse:,} worse", better=counts.better, worse=counts.worse),
-        tr(
-            "{newly_invalid:,} newly invalid, {mended:,} repaired",
-            newly_invalid=counts.newly_invalid,
-            mended=counts.mended,
-        ),
-    )
+    values = {"moved": counts.moved - counts.slid, "free": free, "slid": slid, "name": tr(name)}
+    sentences = [tr("{moved:,} of {free:,} free{slid} nodes moved since {name}.", **values)]
+    if counts.moved:
+        lengths = {"mean": figure(counts.mean), "most": figure(counts.largest)}
+        sentences.append(tr("Mean {mean}, at most {most} mean edge lengths.", **lengths))
+    sentences.append(tr("{better:,} hexes better, {worse:,} worse.", better=counts.better, worse=counts.worse))
+    changes = {"newly": counts.newly_invalid, "repaired": counts.mended}
+    sentences.append(tr("{newly:,} newly invalid, {repaired:,} repaired.", **changes))
+    return "\n".join(sentences)
 
 
-def _figure_label() -> QLabel:
-    label = note()
-    label.setFont(tabular(label.font()))
-    label.setWordWrap(False)
-    return label
-
-
-def _translated(options: list[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
-    return [(key, tr(text), tr(help)) for key, text, help in options]
+def _box(options: tuple[tuple[Any, str, str], ...]) -> ComboBox:
+    """Return a combo box of values with texts and tooltips."""
+    box = ComboBox()
+    let_shrink(box, 8)
+    for at, (value, text, help) in enumerate(options):
+        box.addItem(tr(text), value.value)
+        box.setItemData(at, tr(help), Qt.ItemDataRole.ToolTipRole)
+    return box

@@ -151,7 +151,7 @@ class FeatureNodeStep(Feature):
 
     def _draw_message(self, message: str) -> None:
         node = self._selection.node
-        self.panel.show_message(message, "" if node is None else tr("Node {node:,}", node=node))
+        self.panel.show_message(message, "" if node is None else tr("Node {node}", node=node))
         self._draw(None)
 
     def _show(self, step: NodeStep, done: bool) -> None:

@@ -139,7 +139,7 @@ class NodePanel(QWidget):
         done : bool
             True if the node has been moved, False for a preview of the step.
         """
-        self._title.setText(tr("Node {node:,}", node=step.node))
+        self._title.setText(tr("Node {node}", node=step.node))
         status = step.outcome
         moves = status in (StepStatus.MOVED, StepStatus.SHORTENED)
         outcome = status.value if done or not moves else status.value.replace("Moved", "Will be moved")
@@ -159,7 +159,7 @@ class NodePanel(QWidget):
         self.nodes.setVisible(nodes is not None)
         if nodes is None:
             return
-        links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
+        links = (f"<b>{i}</b>" if i == selected else f'<a href="{i}">{i}</a>' for i in nodes)
         self.nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:

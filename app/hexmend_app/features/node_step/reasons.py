@@ -49,16 +49,16 @@ def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
         return ""
     boundary = bool(mesh.topology.boundary[node])
     if smoother.slides and boundary:
-        reason = tr("Node {node:,} is on the sliding boundary: only steps of interior nodes are shown.", node=node)
+        reason = tr("Node {node} is on the sliding boundary: only steps of interior nodes are shown.", node=node)
     elif boundary:
-        reason = tr("Node {node:,} is on the boundary: no method moves it.", node=node)
+        reason = tr("Node {node} is on the boundary: no method moves it.", node=node)
     elif mesh.interfaces is not None and mesh.interfaces.interface_nodes[node] and not mesh.immovable[node]:
-        reason = tr("Node {node:,} is on an interface between materials, which is kept: no method moves it.", node=node)
+        reason = tr("Node {node} is on an interface between materials, which is kept: no method moves it.", node=node)
     elif mesh.pinned is not None and mesh.pinned[node]:
-        reason = tr("Node {node:,} is pinned: no method moves it.", node=node)
+        reason = tr("Node {node} is pinned: no method moves it.", node=node)
     else:
         reason = tr(
-            "Node {node:,} is fixed, by a rule of motion or by a fixed node of higher order: no method moves it.",
+            "Node {node} is fixed, by a rule of motion or by a fixed node of higher order: no method moves it.",
             node=node,
         )
     return f"{reason} {remedy}"

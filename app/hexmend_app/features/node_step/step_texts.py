@@ -53,17 +53,13 @@ def _power(step: NodeStep) -> str:
 
 def _energy(step: NodeStep) -> Row:
     before, after = _energy_text(step.energy), _energy_text(step.energy_after)
-    values = {"power": _power(step), "cube": short_number(step.norm.cube_value)}
-    if step.is_global:
-        meaning = tr(
-            "Sum of η(H){power} over the whole mesh, in units of the mean edge length; a cube has {cube}.", **values
-        )
-    else:
-        meaning = tr(
-            "Sum of η(H){power} over its {hexes} (the patch), in units of the mean edge length; a cube has {cube}.",
-            hexes=counted(step.hexes.size, "hex"),
-            **values,
-        )
+    patch = tr("its {hexes} (the patch)", hexes=counted(step.hexes.size, "hex"))
+    meaning = tr(
+        "Sum of η(H){power} over {part}, in units of the mean edge length; a cube has {cube}.",
+        power=_power(step),
+        part=tr("the whole mesh") if step.is_global else patch,
+        cube=short_number(step.norm.cube_value),
+    )
     if step.raises_energy:
         optimises = METHODS[step.method].optimises
         meaning += " " + (
@@ -82,10 +78,8 @@ def _energy_text(value: float) -> str:
 
 
 def _delta(step: NodeStep, has_direction: bool) -> Row:
-    if step.delta == 0 and has_direction:
+    if step.delta == 0:
         meaning = tr("No hex is inverted: inverting one would cost infinite energy.")
-    elif step.delta == 0:
-        meaning = tr("No hex of the patch is inverted: inverting one would cost infinite energy.")
     elif has_direction:
         meaning = tr("δ softens the barrier (3.2) while a hex is inverted; without it the energy would be infinite.")
     else:
@@ -135,12 +129,7 @@ def _direction(step: NodeStep) -> list[Row]:
         meaning += " " + tr("This is the node's component of the global search direction.")
     rows = [Row(tr("Direction"), name, meaning, WORSE if step.fallback else TEXT)]
     if kind == "mnr":
-        if step.is_global:
-            meaning = tr(
-                "Added to the eigenvalues of the Hessian of the whole mesh (A.4); 0 if all are clearly positive."
-            )
-        else:
-            meaning = tr("Added to the eigenvalues of the Hessian (A.4); 0 if all are clearly positive.")
+        meaning = tr("Added to the eigenvalues of the Hessian (A.4); 0 if all are clearly positive.")
         rows.append(Row(tr("Shift"), figure(step.shift), meaning))
     return rows
 
@@ -164,18 +153,17 @@ def _target(step: NodeStep) -> list[Row]:
     if not step.pulls:
         return []
     by_node, count = step.pulls[0].kind == "node", len(step.pulls)
+    sources = counted(count, "neighbour") if by_node else tr("positions in {hexes}", hexes=counted(count, "hex"))
     if step.pulls[0].weight is None:
-        sources = counted(count, "neighbour") if by_node else tr("positions in {hexes}", hexes=counted(count, "hex"))
         meaning = tr("The method moves one hex at a time, the worst of the mesh first.")
         return [Row(tr("Attracted by"), sources, meaning)]
+    target = tr("mean of {sources}", sources=sources)
     if by_node:
-        target = tr("mean of {neighbours}", neighbours=counted(count, "neighbour"))
         meaning = tr("Each has the weight 1/{count}; white balls in the view.", count=count)
     else:
-        target = tr("mean of positions in {hexes}", hexes=counted(count, "hex"))
         meaning = tr(
             "Positions of the node in each hex made more regular, white balls in the view. Weights: {weights}.",
-            weights=", ".join(f"{pull.number:,}: {pull.weight:.3f}" for pull in step.pulls),
+            weights=", ".join(f"{pull.number}: {pull.weight:.3f}" for pull in step.pulls),
         )
     fraction = tr("Fraction of the way to the target; smaller if the full step would lower the quality.")
     return [Row(tr("Target"), target, meaning), Row(tr("Step"), f"{100 * step.alpha:.0f} %", fraction)]

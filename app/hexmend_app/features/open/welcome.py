@@ -87,8 +87,10 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     hexes = counted(summary.hexes, "hex")
     counts = {"inverted": figure(summary.inverted), "invalid": figure(summary.invalid)}
     title = tr("{name}: {hexes}, {inverted} inverted, {invalid} invalid", name=name, hexes=hexes, **counts)
-    least = figure(summary.scaled_jacobian_min, 3)
+    least = figure(summary.scaled_jacobian_min)
     sentences = [tr("{verdict} Minimum scaled Jacobian {least}.", verdict=_verdict(state), least=least)]
+    if mesh.mid_nodes is not None:
+        sentences.append(tr("The hexes are of second order."))
     if mesh.materials is not None:
         sentences.append(f"{counted(len(mesh.materials.names), 'material')}.")
     sentences += mesh.notes
@@ -106,8 +108,8 @@ def _verdict(state: State) -> str:
                 "Solvers reject this mesh. Fixed nodes keep all inverted hexes inverted: let the boundary slide, or "
                 "unpin nodes."
             )
-        locked_part = tr(", of which fixed nodes lock {count}", count=figure(locked)) if locked else ""
-        return tr("Solvers reject inverted hexes{locked}. Run Mend to untangle them.", locked=locked_part)
+        locked_part = tr(" Fixed nodes lock {count} of them.", count=figure(locked)) if locked else ""
+        return tr("Solvers reject inverted hexes. Run Mend to untangle them.") + locked_part
     if summary.invalid:
         hexes = counted(summary.invalid, "hex")
         return tr("Solvers may reject {hexes} invalid inside, between valid corners. Run Mend.", hexes=hexes)

@@ -14,9 +14,8 @@ from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.theme.style import show_text
 from hexmend_app.translation import tr
-from hexmend_app.widgets.wording import counted, figure
+from hexmend_app.widgets.wording import counted, duration, figure
 
 #: Rings of hexes around the inverted ones whose nodes are unpinned where the part of the mesh was too small.
 _RINGS = 2
@@ -38,7 +37,6 @@ class FeatureOutcome(Feature):
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._isolate)
-        panel.visit_requested.connect(self._isolate_and_visit)
         panel.suggestion_chosen.connect(lambda index: self._apply(self._shown.suggestions[index]))
         session.run.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_mesh_replaced)
@@ -69,6 +67,7 @@ class FeatureOutcome(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.SMOOTH,
+                tab=tr("Convergence"),
                 order=50,
                 help=tr("Why the run stopped and what to try next."),
             ),
@@ -88,7 +87,6 @@ class FeatureOutcome(Feature):
         elif advice is None:
             self.panel.show_hint()
         self._shown = advice
-        show_text(self.panel.view_note, self._view_note())
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self) -> None:
@@ -127,26 +125,7 @@ class FeatureOutcome(Feature):
             return self._empty_run[1:]
         return ("", None) if record is None else (record.name, record.advice)
 
-    def _view_note(self) -> str:
-        """Describe the mesh in the view if it is not the result of the explained run, else return ""."""
-        timeline = self.session.timeline
-        record, moment = timeline.record, timeline.shown_iteration
-        if self._empty_run is not None or record is None or record.result is None:
-            return ""
-        if moment is None:
-            return tr("The view shows a mesh that is not from this run.")
-        if moment.record is record and moment.number == record.result:
-            return ""
-        if not moment.number:
-            return tr("The view shows the mesh before the run.")
-        return tr("The view shows the mesh at {name}.", name=moment.name)
-
     def _isolate(self, hexes: list[int]) -> None:
-        self.session.view.isolate(hexes)
-        if len(hexes) == 1:
-            self.session.selection.visit(hexes[0])
-
-    def _isolate_and_visit(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)
         self.session.selection.visit(*hexes)
 
@@ -192,10 +171,8 @@ def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str
         for then, now in ((before.inverted, after.inverted), (before.invalid, after.invalid))
     )
     counts = tr("{inverted} inverted · {invalid} invalid", inverted=inverted, invalid=invalid)
-    minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min, 3), j=figure(after.scaled_jacobian_min, 3))
-    seconds = record.rows[-1]["seconds"]
-    digits = 2 if seconds < 10 else 1 if seconds < 100 else 0
-    effort = f"{counted(record.newest, 'iteration')} · {seconds:.{digits}f} s"
+    minima = tr("q min {q} · scaled Jacobian min {j}", q=figure(after.q_min), j=figure(after.scaled_jacobian_min))
+    effort = f"{counted(record.newest, 'iteration')} · {duration(record.rows[-1]['seconds'])}"
     reason = record.message.partition(". ")[0].rstrip(".")
     kept = "" if record.result == record.newest else tr(" · iteration {number} was kept", number=record.result)
     return f"{counts} · {minima}", f"{effort} · {reason}{kept}"

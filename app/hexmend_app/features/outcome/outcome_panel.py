@@ -7,30 +7,27 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QStackedLayout,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.palette import AMBER, INVERTED_TEXT, TEXT, WORSE
+from hexmend_app.theme.palette import INVERTED_TEXT, TEXT, WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import bold, icon, note, set_help, show_text, tint
+from hexmend_app.theme.style import on_theme_change, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import counted, with_minus
 
-_HINT = (
-    "No run has finished yet. After a run, this panel shows why it stopped, the remaining bad hexes, and suggestions."
-)
+_HINT = "No run has finished yet. After a run, this says why it stopped, which bad hexes are left, and what to try."
 #: Maximum number of hexes that are listed by number; the others are counted.
 _MAX_LISTED = 24
+
+#: Lists of hexes in `Advice`, with their titles and descriptions.
+_LISTS = (
+    ("locked", "Locked", "kept inverted by fixed nodes alone"),
+    ("unlocked", "Inverted", "not locked"),
+    ("limiting", "Limiting", "limit the minimum scaled Jacobian"),
+    ("locked_below", "Fixed corner", "all nodes of the worst corner are fixed"),
+)
 
 
 class OutcomePanel(QWidget):
@@ -42,87 +39,46 @@ class OutcomePanel(QWidget):
         The user selected this suggestion, counted from 0.
     show_requested(list)
         The user asked to isolate these hexes.
-    visit_requested(list)
-        The user asked to isolate these hexes and zoom to them.
     chosen(int)
         The user selected this hex.
     """
 
     suggestion_chosen = Signal(int)
     show_requested = Signal(list)
-    visit_requested = Signal(list)
     chosen = Signal(int)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
+        self._title, self._hint = "", tr(_HINT)
+        self._advice: Advice | None = None
+        self._ids: np.ndarray | None = None
         self._busy = False
-        self._hint = note(tr(_HINT))
-        self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._hint.setMargin(24)
-        self._title, self._reason, self._state, self._regressions = QLabel(), *(self._text() for _ in range(3))
-        self._title.setFont(bold(self._title.font()))
-        self._locked = _HexList(tr("Locked"), tr("that fixed nodes alone keep inverted"))
-        self._unlocked = _HexList(tr("Inverted"), tr("that are inverted but not locked"))
-        self._surface = self._text()
-        self._limiting = _HexList(tr("Limiting"), tr("that limit the minimum scaled Jacobian"))
-        self._locked_below = _HexList(
-            tr("Fixed corner"),
-            tr("whose worst corner has only fixed nodes"),
-            tr("the hexes limited by fixed corners"),
+        self.text = LinkLabel()
+        self.text.setWordWrap(True)
+        self.text.setAccessibleName(tr("Run summary"))
+        self.text.setTextInteractionFlags(
+            self.text.textInteractionFlags() | Qt.TextInteractionFlag.TextSelectableByMouse
         )
-        self._hex_lists = (self._locked, self._unlocked, self._limiting, self._locked_below)
-        for hex_list in self._hex_lists:
-            hex_list.chosen.connect(self.chosen)
-            request = self.visit_requested if hex_list is self._limiting else self.show_requested
-            hex_list.show_requested.connect(request)
-        self._suggestions_title = QLabel(tr("Suggestions"))
-        self._suggestions_title.setFont(self._title.font())
-        self._no_suggestion = note()
-        self.view_note = note("", AMBER)
-        self.view_note.hide()
+        self.text.followed.connect(self.chosen)
+        self.text.linkActivated.connect(self._follow)
         self._suggestions = QGridLayout()
         self._suggestions.setColumnStretch(0, 1)
         self._suggestions.setVerticalSpacing(8)
         self._buttons: list[QPushButton] = []
-        self._stack = QStackedLayout(self)
-        self._stack.addWidget(self._hint)
-        self._stack.addWidget(self._page())
-
-    def _text(self) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        return label
-
-    def _page(self) -> QWidget:
-        page = QWidget()
-        summary = (self._title, self.view_note, self._reason, self._state, self._regressions)
-        suggestions = (self._suggestions_title, self._no_suggestion, self._suggestions)
-        parts = (*summary, *self._hex_lists, self._surface, *suggestions)
-        fill(QVBoxLayout(page), *parts, None, margins=(8, 8, 8, 8))
-        return scrolled(page)
+        fill(QVBoxLayout(self), self.text, self._suggestions, margins=(8, 0, 8, 4))
+        on_theme_change(self, self._show)
 
     def show_hint(self, hint: str = "") -> None:
         """Show a hint instead of an outcome; by default what this panel is for."""
-        self._hint.setText(hint or tr(_HINT))
-        self._stack.setCurrentIndex(0)
+        self._advice, self._hint = None, hint or tr(_HINT)
+        self._show_suggestions(())
+        self._show()
 
     def show_advice(self, title: str, advice: Advice, ids: np.ndarray | None = None) -> None:
         """Explain the end of a run; `ids` (m,) are the numbers of the hexes in the file, if it has some."""
-        self._title.setText(title)
-        self._reason.setText(advice.reason)
-        self._state.setText(with_minus(advice.state))
-        tint(self._state, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
-        show_text(self._regressions, with_minus(advice.regressions))
-        tint(self._regressions, WORSE)
-        self._locked.show_hexes(advice.locked, ids)
-        self._unlocked.show_hexes(advice.unlocked, ids)
-        self._limiting.show_hexes(advice.limiting, ids)
-        self._locked_below.show_hexes(advice.locked_below, ids)
-        show_text(self._surface, advice.surface)
-        self._no_suggestion.setText(advice.no_suggestion)
+        self._title, self._advice, self._ids = title, advice, ids
         self._show_suggestions(advice.suggestions)
-        self._stack.setCurrentIndex(1)
+        self._show()
 
     def set_busy(self, busy: bool) -> None:
         """Disable the suggestions during a run and while a mesh is being opened."""
@@ -130,16 +86,33 @@ class OutcomePanel(QWidget):
         for button in self._buttons:
             button.setEnabled(not busy)
 
+    def _show(self) -> None:
+        advice = self._advice
+        if advice is None:
+            self.text.setText(escape(self._hint))
+            return
+        bad = INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT
+        lists = (_hexes_html(name, tr(title), tr(about), advice, self._ids) for name, title, about in _LISTS)
+        suggests = advice.suggestions or advice.no_suggestion
+        paragraphs = (
+            f"<b>{escape(self._title)}</b>",
+            escape(advice.reason),
+            f'<span style="color: {bad}">{escape(with_minus(advice.state))}</span>',
+            f'<span style="color: {WORSE}">{escape(with_minus(advice.regressions))}</span>' * bool(advice.regressions),
+            *lists,
+            escape(advice.surface),
+            f"<b>{tr('Suggestions')}</b>" if suggests else "",
+            "" if advice.suggestions else escape(advice.no_suggestion),
+        )
+        self.text.setText("".join(f'<p style="margin: 0 0 6px">{text}</p>' for text in paragraphs if text))
+
     def _show_suggestions(self, suggestions: Sequence[Suggestion]) -> None:
         clear(self._suggestions)
         self._buttons = []
-        self._suggestions_title.setVisible(bool(suggestions or self._no_suggestion.text()))
-        self._no_suggestion.setVisible(not suggestions and bool(self._no_suggestion.text()))
-        before: QWidget = self._locked_below.button
+        before: QWidget = self.text
         for index, suggestion in enumerate(suggestions):
-            text = self._text()
-            text.setTextFormat(Qt.TextFormat.RichText)
-            text.setText(f"<b>{escape(suggestion.title)}.</b> {escape(suggestion.text)}")
+            text = QLabel(f"<b>{escape(suggestion.title)}.</b> {escape(suggestion.text)}")
+            text.setWordWrap(True)
             button = QPushButton(tr("Select"))
             set_help(button, tr("Select: {title}", title=suggestion.title), _selection_help(suggestion))
             button.clicked.connect(lambda _=False, index=index: self.suggestion_chosen.emit(index))
@@ -150,48 +123,24 @@ class OutcomePanel(QWidget):
             before = button
         self.set_busy(self._busy)
 
+    def _follow(self, link: str) -> None:
+        """Isolate the hexes of a list, whose name the link is."""
+        hexes = getattr(self._advice, link, None)
+        if hexes is not None:
+            self.show_requested.emit(hexes.tolist())
 
-class _HexList(QWidget):
-    """Links to hexes, and a button that isolates them; hidden while the list is empty."""
 
-    chosen = Signal(int)
-    show_requested = Signal(list)
-
-    def __init__(self, title: str, description: str, name: str = "", parent: QWidget | None = None):
-        super().__init__(parent)
-        self._title = title
-        self._hexes: list[int] = []
-        self._links = LinkLabel()
-        self._links.setWordWrap(True)
-        self._links.followed.connect(self.chosen)
-        set_help(
-            self._links,
-            tr("{title} hexes", title=title),
-            tr("Hexes {description}; click one to select it.", description=description),
-        )
-        self.button = QPushButton(icon("eye-outline"), tr("Show"))
-        self.button.clicked.connect(lambda: self.show_requested.emit(self._hexes))
-        set_help(
-            self.button,
-            tr("Show {hexes}", hexes=name or tr("the {title} hexes", title=title.lower())),
-            tr(
-                "Show only the hexes {description}, and their neighbours; Esc shows all hexes again.",
-                description=description,
-            ),
-        )
-        row = fill(QHBoxLayout(self), (self._links, 1), margins=(0, 0, 0, 0))
-        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
-
-    def show_hexes(self, hexes: np.ndarray, ids: np.ndarray | None) -> None:
-        """List hexes (k,) by number, with their numbers in the file if `ids` (m,) gives them."""
-        self._hexes = hexes.tolist()
-        links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._hexes[:_MAX_LISTED])
-        more = len(self._hexes) - _MAX_LISTED
-        others = f" and {counted(more, 'other')}" if more > 0 else ""
-        of_file = "" if ids is None else ", ".join(map(str, ids[hexes[:_MAX_LISTED]].tolist()))
-        text = f"{self._title}: {links}{others}"
-        self._links.setText(tr("{text} (in the file {ids})", text=text, ids=of_file) if of_file else text)
-        self.setVisible(bool(self._hexes))
+def _hexes_html(name: str, title: str, about: str, advice: Advice, ids: np.ndarray | None) -> str:
+    """Return links to the hexes of a list of the advice and to all of them, and their numbers in the file."""
+    hexes = getattr(advice, name)
+    if not hexes.size:
+        return ""
+    listed = hexes[:_MAX_LISTED]
+    links = ", ".join(f'<a href="{h}">{h}</a>' for h in listed.tolist())
+    more = hexes.size - listed.size
+    others = tr(" and {others}", others=counted(more, "other")) if more else ""
+    of_file = "" if ids is None else tr(" (in the file {ids})", ids=", ".join(map(str, ids[listed].tolist())))
+    return f'{title} ({about}): {links}{others}{of_file} · <a href="{name}">{tr("Show")}</a>'
 
 
 def _selection_help(suggestion: Suggestion) -> str:

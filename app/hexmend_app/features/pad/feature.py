@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.errors import HexmendError
 from hexmend.padding import Padding
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.pad.pad_dialog import PadDialog
+from hexmend_app.host import ChangeReport
 from hexmend_app.translation import tr
 
 
@@ -18,11 +18,16 @@ class FeaturePad(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        padder = self.session.padder
-        padder.began.connect(self._on_began)
-        padder.ended.connect(self._on_ended)
-        padder.failed.connect(self._on_failed)
-        padder.cancelled.connect(self._on_cancelled)
+        ChangeReport(
+            host,
+            self.session.padder,
+            key="pad",
+            working=tr("Padding mesh…"),
+            cancel_help=tr("Cancel the padding. The mesh does not change."),
+            failed=tr("Mesh not padded"),
+            cancelled=tr("Padding cancelled."),
+        )
+        self.session.padder.ended.connect(self._on_ended)
 
     def actions(self) -> Sequence[Action]:
         """Return the action that pads the mesh."""
@@ -48,25 +53,8 @@ class FeaturePad(Feature):
         if accepted:
             self.session.commands.pad(choice)
 
-    def _on_began(self) -> None:
-        help = tr("Cancel the padding. The mesh does not change.")
-        self.host.busy.show_work("pad", tr("Padding mesh…"), tr("Cancel"), help, self.session.padder.cancel)
-        self.host.refresh_soon()
-
     def _on_ended(self, padding: Padding) -> None:
-        self.host.busy.done("pad")
-        shown = {"timeout_ms": 0} if padding.after.inverted else {}  # what is left is read with care
-        self.host.messages.show_info(padding.message, **shown)
-        self.host.refresh_soon()
-
-    def _on_failed(self, error: Exception) -> None:
-        self.host.busy.done("pad")
-        self.host.refresh_soon()
-        if not isinstance(error, HexmendError):
-            raise error
-        self.host.messages.show_error(tr("Mesh not padded"), str(error))
-
-    def _on_cancelled(self) -> None:
-        self.host.busy.done("pad")
-        self.host.messages.show_info(tr("Padding cancelled."))
-        self.host.refresh_soon()
+        """Show how many hexes were inverted before and after, and about the layer."""
+        before, after = padding.before.inverted, padding.after.inverted
+        title = tr("{before:,} → {after:,} inverted", before=before, after=after)
+        self.host.messages.show_result(title, padding.message, (), 0 if after else 12_000)

@@ -1,13 +1,14 @@
-"""Quality statistics of the mesh, at the start and now."""
+"""Quality of the mesh, at the start and now, in a strip over the view."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from PySide6.QtGui import QGuiApplication
+
 from hexmend_app.canvas.canvas import Canvas
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.quality.quality_bar import QualityBar
-from hexmend_app.features.quality.statistics import StatisticsTable
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.features.quality.quality_bar import QualityBar, figures_text
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
@@ -15,7 +16,7 @@ from hexmend_app.widgets.overlay import Overlay
 
 
 class FeatureQuality(Feature):
-    """Shows the quality statistics of the mesh as it was opened and as it is now."""
+    """Shows the quality of the mesh as it was opened and as it is now."""
 
     order = 41
     shows_iterations = True
@@ -23,13 +24,12 @@ class FeatureQuality(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._seen = ChangeTracker()
-        self.panel = StatisticsTable()
-        self.panel.isolate_requested.connect(self._isolate)
         self.bar = QualityBar(host.dialog_parent)
+        self.bar.isolate_requested.connect(self._isolate)
         self.bar.hide()
 
     def actions(self) -> Sequence[Action]:
-        """Return the action that shows the key figures in the view."""
+        """Return the actions that show the figures in the view and copy them."""
         return (
             Action(
                 id="key_figures",
@@ -43,18 +43,21 @@ class FeatureQuality(Feature):
                 handle=self._set_bar,
                 checked=settings.KEY_FIGURES.get,
             ),
-        )
-
-    def panels(self) -> Sequence[Panel]:
-        """Return the table of statistics."""
-        return (
-            Panel(
-                id="quality",
-                title=tr("Quality"),
-                widget=self.panel,
-                place=PanelPlace.FACTS,
-                order=20,
-                help=tr("Quality statistics of the mesh, now and as it was opened."),
+            Action(
+                id="all_figures",
+                text=tr("All &quality figures"),
+                menu="View",
+                part=3,
+                help=tr("Show all quality figures below the key figures, at the start and now."),
+                handle=lambda on: self.bar.all_button.setChecked(on),
+                checked=self.bar.all_button.isChecked,
+                enabled=lambda: not self.bar.isHidden(),
+            ),
+            Action(
+                id="copy_figures",
+                text=tr("Copy quality figures"),
+                help=tr("Copy all quality figures, at the start and now, as a table for a spreadsheet."),
+                handle=self._copy,
             ),
         )
 
@@ -64,14 +67,12 @@ class FeatureQuality(Feature):
         self._show_bar()
 
     def refresh(self) -> None:
-        """Update the statistics."""
+        """Update the figures."""
         document = self.session.document
         if not document.is_open:
             return
         if self._seen.changed("figures", document.start, document.now):
-            summaries = document.start.summary, document.now.summary
-            self.panel.set_summaries(*summaries)
-            self.bar.set_summaries(*summaries)
+            self.bar.set_summaries(document.start.summary, document.now.summary)
         if self.canvas is not None and self._seen.changed("views", document.start, self.session.side_views.all):
             self._show_bar()
 
@@ -82,6 +83,10 @@ class FeatureQuality(Feature):
     def _show_bar(self) -> None:
         """Show the key figures of a single view; the captions of several views have figures of their own."""
         self.bar.setVisible(settings.KEY_FIGURES.get() and not self.session.side_views.all)
+
+    def _copy(self) -> None:
+        document = self.session.document
+        QGuiApplication.clipboard().setText(figures_text(document.start.summary, document.now.summary))
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

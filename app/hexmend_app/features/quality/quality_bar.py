@@ -1,122 +1,195 @@
-"""Bar in the view with the key figures of the mesh: at the start, now, and whether they are better."""
+"""Strip in the view with the quality of the mesh: its key figures in a line, and on request all figures as a table."""
 
 from __future__ import annotations
 
+import math
 from html import escape
-from typing import Any
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent, QTextDocument
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from hexmend.quality import SUMMARY_QUANTITIES
+from hexmend.quality import SUMMARY_QUANTITIES, Summary
 from hexmend.quantity import Quantity
-from hexmend_app.theme.palette import BETTER, MUTED, TEXT, WORSE, Role
+from hexmend_app.theme.palette import BETTER, BLUE, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import on_theme_change, smaller, tabular
+from hexmend_app.theme.style import icon, on_theme_change, set_help, smaller, tabular, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
 
-#: Figures of the bar, in order.
+#: Figures of the line, in order.
 FIGURES = tuple(SUMMARY_QUANTITIES[key] for key in ("inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min"))
-#: Smaller differences are those of rounding.
-_ROUNDING = 1e-12
+#: Figures of the table; the quality of the best hex tells nothing about a mesh.
+ROWS = tuple(quantity for quantity in SUMMARY_QUANTITIES.values() if quantity.key != "q_max")
+#: Groups of hexes to which the present numbers in the table are links.
+LINKS = {"inverted": "inverted", "locked_inverted": "locked", "invalid": "invalid"}
 _GAP = "&nbsp;" * 5
 
 
 class QualityBar(QFrame):
-    """Line of the key figures, such as "q min 0.4035 → 0.4841 ▲"; in a narrow view, without those at the start."""
+    """Line such as "q min 0.4035 → 0.4841 ▲", in a narrow view without the values at the start; below it, the table.
+
+    Signals
+    -------
+    isolate_requested(str)
+        The user clicked the number of "inverted", "locked" or "invalid" hexes.
+    """
+
+    isolate_requested = Signal(str)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._summaries: tuple[Any, Any] | None = None
-        self._preferred = QSize()
+        self._summaries: tuple[Summary, Summary] | None = None
+        self._preferred_width = 0
         self.setObjectName("quality_bar")
-        self._label = QLabel()
-        self._label.setFont(tabular(smaller(self._label.font())))
-        self._label.setTextFormat(Qt.TextFormat.RichText)
-        self._label.setAccessibleName(tr("Key figures"))
+        self._label, self.table = self._make_label(tr("Key figures")), self._make_label(tr("Quality of the mesh"))
         self._label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self._layout = fill(QHBoxLayout(self), self._label, margins=(8, 4, 8, 4))
+        self.table.linkActivated.connect(self.isolate_requested)
+        self.table.hide()
+        self.all_button = tool_button("chevron-down", MUTED)
+        self.all_button.setCheckable(True)
+        self.all_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # an action does the same
+        self.all_button.setIconSize(QSize(14, 14))
+        set_help(self.all_button, tr("All figures"), tr("Show all quality figures, at the start and now."))
+        self.all_button.toggled.connect(self._expand)
+        line = fill(QHBoxLayout(), (self._label, 1), self.all_button, spacing=4)
+        self._column = fill(QVBoxLayout(self), line, self.table, margins=(8, 2, 4, 2), spacing=4)
         on_theme_change(self, self._show)
 
-    def set_summaries(self, start: Any, now: Any) -> None:
-        """Show two summaries of `hexmend.quality.summarise`: at the start and now."""
+    def set_summaries(self, start: Summary, now: Summary) -> None:
+        """Show the figures of the mesh at the start and now."""
         self._summaries = start, now
         self._show()
 
     @property
     def text(self) -> str:
-        """The figures as plain text."""
+        """The line as plain text."""
         document = QTextDocument()
         document.setHtml(self._label.text())
         return " ".join(document.toPlainText().split())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Omit the figures at the start where the bar is too narrow for them, then the last figures."""
+        """Omit the values at the start where the line is too narrow for them, then the last figures."""
         super().resizeEvent(event)
         self._fit()
 
     def sizeHint(self) -> QSize:
-        """Return the size with all figures."""
-        return self._preferred.grownBy(self._layout.contentsMargins()).grownBy(self.contentsMargins())
+        """Return the size with all figures: that of the table if it is shown, else of the line."""
+        hint = super().sizeHint()
+        if not self.all_button.isChecked():
+            hint.setWidth(self._preferred_width + self._other_width())
+        return hint
 
     def minimumSizeHint(self) -> QSize:
         """Return a size that fits any view."""
         return QSize(0, 0)
 
+    def _make_label(self, name: str) -> QLabel:
+        label = QLabel()
+        label.setFont(tabular(smaller(label.font())))
+        label.setTextFormat(Qt.TextFormat.RichText)
+        label.setAccessibleName(name)
+        return label
+
+    def _expand(self, on: bool) -> None:
+        self.all_button.setIcon(icon("chevron-up" if on else "chevron-down", MUTED))
+        self.table.setVisible(on)
+        self._show()
+
     def _show(self) -> None:
         """Show the figures, and let the overlay fit its size to them."""
         if self._summaries is None:
             return
-        figures = self._figures()
-        help = "".join(f"<p>{_html(*entry, True)}<br>{escape(tr(entry[0].help))}</p>" for entry in figures)
-        self._label.setToolTip(f"<qt>{help}</qt>")
-        self._label.setAccessibleDescription(". ".join(_sentence(*entry) for entry in figures))
-        self._set_text(with_start=True)
-        self._preferred = self._label.sizeHint()
+        self._label.setAccessibleDescription(". ".join(_sentence(one, *self._values(one)) for one in FIGURES))
+        self._set_line(len(FIGURES), with_start=True)
+        self._preferred_width = self._label.sizeHint().width()
+        if self.all_button.isChecked():
+            self.table.setText(self._table_html())
         self.updateGeometry()
         self._fit()
+
+    def _other_width(self) -> int:
+        """Return the width of all except the line."""
+        margins = self._column.contentsMargins() + self.contentsMargins()
+        return margins.left() + margins.right() + self.all_button.sizeHint().width() + 4
 
     def _fit(self) -> None:
         if self._summaries is None:
             return
-        margins = self._layout.contentsMargins()
-        space, shown = self.contentsRect().width() - margins.left() - margins.right(), len(FIGURES)
-        self._set_text(with_start=self.width() >= self.sizeHint().width())
+        space, shown = self.width() - self._other_width(), len(FIGURES)
+        self._set_line(shown, with_start=space >= self._preferred_width)
         while shown > 1 and self._label.sizeHint().width() > space:
             shown -= 1
-            self._set_text(shown, with_start=False)
+            self._set_line(shown, with_start=False)
 
-    def _set_text(self, shown: int = len(FIGURES), *, with_start: bool) -> None:
-        self._label.setText(_GAP.join(_html(*entry, with_start) for entry in self._figures()[:shown]))
+    def _set_line(self, shown: int, with_start: bool) -> None:
+        self._label.setText(_GAP.join(_html(one, *self._values(one), with_start) for one in FIGURES[:shown]))
 
-    def _figures(self) -> list[tuple[Quantity, Any, Any]]:
-        """Return the quantities with their values at the start and now."""
+    def _table_html(self) -> str:
+        titles = ("", tr("start"), tr("now"), tr("change"))
+        head = "".join(f'<td align="right" style="color: {MUTED}">{title}</td>' for title in titles)
+        rows = "".join(_row_html(one, *self._values(one)) for one in ROWS)
+        return f'<table cellpadding="2" cellspacing="0"><tr>{head}</tr>{rows}</table>'
+
+    def _values(self, quantity: Quantity) -> tuple[float | None, float | None]:
+        """Return a figure at the start and now; None for an infinite one."""
         start, now = self._summaries
-        return [(one, getattr(start, one.key), getattr(now, one.key)) for one in FIGURES]
+        return getattr(start, quantity.key), getattr(now, quantity.key)
 
 
-def sense(quantity: Quantity, start: float, now: float) -> int:
-    """Return 1 if a figure is better than at the start, -1 if it is worse, else 0.
+def figures_text(start: Summary, now: Summary) -> str:
+    """Return all figures as tab-separated text with a title line, in full precision; infinite figures are empty."""
+    rows = [(row.title, getattr(start, row.key), getattr(now, row.key)) for row in ROWS]
+    lines = [("figure", "start", "now"), *rows]
+    return "".join("\t".join("" if cell is None else str(cell) for cell in line) + "\n" for line in lines)
 
-    >>> sense(FIGURES[0], 36, 0), sense(FIGURES[2], 0.5, 0.4), sense(FIGURES[2], 0.5, 0.5)
+
+def sense(quantity: Quantity, start: float | None, now: float | None) -> int:
+    """Return 1 if a figure is better than at the start, -1 if it is worse, 0 if it is written alike or is neither.
+
+    >>> sense(FIGURES[0], 36, 0), sense(FIGURES[2], 0.5, 0.4), sense(FIGURES[2], 0.50001, 0.5)
     (1, -1, 0)
     """
-    change = quantity.better * (now - start)
-    return 0 if abs(change) <= _ROUNDING else 1 if change > 0 else -1
+    if figure(start) == figure(now):
+        return 0
+    before, after = (math.inf if value is None else value for value in (start, now))
+    return quantity.better if after > before else -quantity.better
 
 
-def _html(quantity: Quantity, start: float, now: float, with_start: bool) -> str:
-    """Return a figure as HTML, with its value at the start and an arrow if it differs."""
+def _arrow(start: float | None, now: float | None) -> str:
+    """Return an arrow up or down; "" if the figures are written alike."""
+    if figure(start) == figure(now):
+        return ""
+    return "▼" if start is None or (now is not None and now < start) else "▲"
+
+
+def _colour(quantity: Quantity, start: float | None, now: float | None) -> Role:
     change = sense(quantity, start, now)
-    colour: Role = {1: BETTER, -1: WORSE, 0: TEXT}[change]
-    if not change and quantity.key in ("inverted", "invalid") and now:
-        colour = WORSE
-    arrow = "" if not change else " ▲" if now > start else " ▼"
-    before = f"{figure(start)} → " if change and with_start else ""
+    if not change and quantity.key in LINKS and now:
+        return WORSE
+    return {1: BETTER, -1: WORSE, 0: TEXT}[change]
+
+
+def _html(quantity: Quantity, start: float | None, now: float | None, with_start: bool) -> str:
+    """Return a figure of the line, with its value at the start and an arrow if it differs."""
+    arrow = _arrow(start, now)
+    before = f"{figure(start)} → " if arrow and with_start else ""
     title = f'<span style="color: {MUTED}">{_unbroken(f"{tr(quantity.label)} {before}")}</span>'
-    return f'{title}<b style="color: {colour}">{_unbroken(f"{figure(now)}{arrow}")}</b>'
+    value = _unbroken(f"{figure(now)} {arrow}".strip())
+    return f'{title}<b style="color: {_colour(quantity, start, now)}">{value}</b>'
+
+
+def _row_html(quantity: Quantity, start: float | None, now: float | None) -> str:
+    """Return a row of the table; a positive number of bad hexes is a link."""
+    arrow, colour = _arrow(start, now), _colour(quantity, start, now)
+    change = "=" if not arrow else arrow if start is None or now is None else f"{arrow} {figure(abs(now - start))}"
+    title = f"– {tr(quantity.label)}" if quantity.part_of else tr(quantity.title)
+    present = figure(now)
+    if quantity.key in LINKS and now:
+        present = f'<a href="{LINKS[quantity.key]}" style="color: {BLUE}">{present}</a>'
+    cells = "".join(f'<td align="right">&nbsp;&nbsp;{text}</td>' for text in (figure(start), present))
+    last = f'<td align="right" style="color: {colour}">&nbsp;&nbsp;{change}</td>'
+    return f"<tr><td>{_unbroken(title)}</td>{cells}{last}</tr>"
 
 
 def _unbroken(text: str) -> str:
@@ -124,7 +197,7 @@ def _unbroken(text: str) -> str:
     return escape(text).replace(" ", "&nbsp;")
 
 
-def _sentence(quantity: Quantity, start: float, now: float) -> str:
+def _sentence(quantity: Quantity, start: float | None, now: float | None) -> str:
     """Return a figure as text for screen readers."""
     words = {1: tr("better than"), -1: tr("worse than"), 0: tr("as")}[sense(quantity, start, now)]
     values = {"title": tr(quantity.label), "now": figure(now), "words": words, "start": figure(start)}

@@ -3,27 +3,25 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.state.run.breakpoints import Breakpoints
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import set_help, tabular
+from hexmend_app.theme.style import labelled, set_help, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.form_grid import form_grid
 
 _INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
 _FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
-_NODE = (
-    "Pause when this node moves further than this in one iteration, in mean edge lengths. Select the box to use the "
-    "node selected in the view."
-)
-_HEX = (
-    "Pause when q(H) of this hex changes by more than this in one iteration. Select the box to use the hex selected in "
-    "the view."
-)
+_NODE = "Pause when the node with this number moves further than the limit below in one iteration."
+_MOVE = "Limit of the node's move, in mean edge lengths."
+_HEX = "Pause when q(H) of the hex with this number changes by more than the limit below in one iteration."
+_CHANGE = "Limit of the change of q(H)."
 _BACKTRACKS = (
     "Pause when the line search (Algorithm A.5) shortens the step more often than this. Not available for methods that "
     "search node by node."
 )
+#: Value of a number box that shows a word instead of a number.
+_OFF = -1
 
 
 class BreakpointForm(QWidget):
@@ -39,132 +37,115 @@ class BreakpointForm(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._selected_hex: int | None = None
-        self._selected_node: int | None = None
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(4)
-        grid.setVerticalSpacing(4)
-        self._inverts = self._check(grid, 0, tr("A hex inverts"), tr(_INVERTS))
-        self._falls = self._check(grid, 1, tr("Minimum q drops"), tr(_FALLS))
-        self._node, self._node_box, self._move = self._watch(
-            grid,
-            2,
-            (tr("Node moves"), tr("Node number"), tr("Node moves by more than")),
-            tr(_NODE),
-            tr(" edge"),
+        self._selected: tuple[int | None, int | None] = (None, None)
+        self._inverts, self._falls = QCheckBox(tr("A hex inverts")), QCheckBox(tr("Minimum q drops"))
+        set_help(self._inverts, tr("A hex inverts"), tr(_INVERTS))
+        set_help(self._falls, tr("Minimum q drops"), tr(_FALLS))
+        self._node, self._move = _number(tr("none"), tr("Node number"), _NODE), _limit(tr(" edge"), _MOVE)
+        self._hex, self._change = _number(tr("none"), tr("Hex number"), _HEX), _limit(tr(" q"), _CHANGE)
+        self._backtracks = _number(tr("off"), tr("Backtracks of the line search"), _BACKTRACKS)
+        self._backtracks.setMaximum(99)
+        self._use_selected = QPushButton(tr("Use selected hex and node"))
+        set_help(
+            self._use_selected,
+            tr("Use selected hex and node"),
+            tr("Pause at changes of the hex and the node that are selected in the view."),
         )
-        self._hex, self._hex_box, self._change = self._watch(
-            grid, 4, (tr("Hex changes"), tr("Hex number"), tr("Hex changes by more than")), tr(_HEX), " q"
+        grid = form_grid(self)
+        grid.addWidget(self._inverts, 0, 0, 1, 2)
+        grid.addWidget(self._falls, 1, 0, 1, 2)
+        rows = (
+            (tr("Node no."), self._node),
+            (tr("   moves more than"), self._move),
+            (tr("Hex no."), self._hex),
+            (tr("   changes more than"), self._change),
+            (tr("Backtracks above"), self._backtracks),
         )
-        self._backtracks = self._check(grid, 6, tr("Line search backtracks"), tr(_BACKTRACKS))
-        self._backtracks_box = self._number(QSpinBox(), tr("Maximum backtracks of the line search"), tr(_BACKTRACKS))
-        self._backtracks_box.setRange(0, 99)
-        self._backtracks_box.setValue(3)
-        self._add_limit(grid, 7, tr("more often than"), self._backtracks_box)
-        grid.setColumnStretch(0, 1)
-        self._node.clicked.connect(lambda on: self._use_selected(self._node_box, self._selected_node, on))
-        self._hex.clicked.connect(lambda on: self._use_selected(self._hex_box, self._selected_hex, on))
-        for check in (self._inverts, self._falls, self._node, self._hex, self._backtracks):
+        for row, (text, box) in enumerate(rows, start=2):
+            grid.addWidget(labelled(text, box), row, 0)
+            grid.addWidget(box, row, 1)
+        grid.addWidget(self._use_selected, len(rows) + 2, 0, 1, 2)
+        self._use_selected.clicked.connect(self._on_use_selected)
+        for check in (self._inverts, self._falls):
             check.clicked.connect(self._on_changed)
-        for box in (self._node_box, self._move, self._hex_box, self._change, self._backtracks_box):
+        for box in (self._node, self._move, self._hex, self._change, self._backtracks):
             box.valueChanged.connect(self._on_changed)
-        self._enable()
+        self.set_mesh(0, 0)
 
     def breakpoints(self) -> Breakpoints:
         """Return the breakpoints set in the form."""
         return Breakpoints(
             inverts=self._inverts.isChecked(),
             q_min_falls=self._falls.isChecked(),
-            node=self._node_box.value() if self._node.isChecked() else None,
+            node=_value(self._node),
             move=self._move.value(),
-            hex=self._hex_box.value() if self._hex.isChecked() else None,
+            hex=_value(self._hex),
             change=self._change.value(),
-            backtracks=self._backtracks_box.value() if self._backtracks.isChecked() else None,
+            backtracks=_value(self._backtracks),
         )
 
     def set_breakpoints(self, breakpoints: Breakpoints) -> None:
         """Show `breakpoints` in the form."""
-        for check, on in (
-            (self._inverts, breakpoints.inverts),
-            (self._falls, breakpoints.q_min_falls),
-            (self._node, breakpoints.node is not None),
-            (self._hex, breakpoints.hex is not None),
-            (self._backtracks, breakpoints.backtracks is not None),
-        ):
-            check.setChecked(on)
+        self._inverts.setChecked(breakpoints.inverts)
+        self._falls.setChecked(breakpoints.q_min_falls)
         for box, value in (
-            (self._node_box, breakpoints.node),
+            (self._node, breakpoints.node),
             (self._move, breakpoints.move),
-            (self._hex_box, breakpoints.hex),
+            (self._hex, breakpoints.hex),
             (self._change, breakpoints.change),
-            (self._backtracks_box, breakpoints.backtracks),
+            (self._backtracks, breakpoints.backtracks),
         ):
-            if value is not None:
-                with QSignalBlocker(box):
-                    box.setValue(value)  # type: ignore[arg-type]  # of the type of its box
+            with QSignalBlocker(box):
+                box.setValue(_OFF if value is None else value)  # type: ignore[arg-type]  # of the type of its box
         self._on_changed()
 
     def set_selected(self, hex: int | None, node: int | None) -> None:
-        """Set the hex and node selected in the view, which are proposed when a box is selected."""
-        self._selected_hex, self._selected_node = hex, node
+        """Set the hex and node selected in the view."""
+        self._selected = hex, node
+        self._use_selected.setEnabled(self._selected != (None, None))
 
     def set_mesh(self, hexes: int, nodes: int) -> None:
         """Set the size of a new mesh; breakpoints on a single hex or node are removed."""
-        for check, box, count in ((self._hex, self._hex_box, hexes), (self._node, self._node_box, nodes)):
-            check.setChecked(False)
-            box.setRange(0, max(count - 1, 0))
+        for box, count in ((self._hex, hexes), (self._node, nodes)):
+            with QSignalBlocker(box):
+                box.setRange(_OFF, count - 1)
+                box.setValue(_OFF)
         self._on_changed()
 
-    def _check(self, grid: QGridLayout, row: int, text: str, help: str, span: int = 2) -> QCheckBox:
-        check = QCheckBox(text)
-        set_help(check, text, help)
-        grid.addWidget(check, row, 0, 1, span)
-        return check
-
-    def _watch(
-        self, grid: QGridLayout, row: int, names: tuple[str, str, str], help: str, suffix: str
-    ) -> tuple[QCheckBox, QSpinBox, QDoubleSpinBox]:
-        """Add two rows for a hex or node: a check box, its number, and the limit of its change, with these names."""
-        check = self._check(grid, row, names[0], help, span=1)
-        number = self._number(QSpinBox(), names[1], help)
-        amount = self._number(QDoubleSpinBox(), names[2], help)
-        amount.setRange(0, 9.999)
-        amount.setDecimals(3)
-        amount.setSingleStep(0.01)
-        amount.setValue(0.1)
-        amount.setSuffix(suffix)
-        grid.addWidget(number, row, 1)
-        self._add_limit(grid, row + 1, tr("more than"), amount)
-        return check, number, amount
-
-    @staticmethod
-    def _add_limit(grid: QGridLayout, row: int, label: str, box: QWidget) -> None:
-        """Add an indented row with a label and the box of a limit."""
-        line = fill(QHBoxLayout(), QLabel(label), margins=(8, 0, 0, 0), spacing=None)
-        grid.addLayout(line, row, 0)
-        grid.addWidget(box, row, 1)
-
-    @staticmethod
-    def _number(box, name: str, help: str):
-        box.setFont(tabular(box.font()))
-        set_help(box, name, help)
-        return box
-
-    @staticmethod
-    def _use_selected(box: QSpinBox, selected: int | None, on: bool) -> None:
-        if on and selected is not None:
-            box.setValue(selected)
-
-    def _enable(self) -> None:
-        for check, boxes in (
-            (self._node, (self._node_box, self._move)),
-            (self._hex, (self._hex_box, self._change)),
-            (self._backtracks, (self._backtracks_box,)),
-        ):
-            for box in boxes:
-                box.setEnabled(check.isChecked())
+    def _on_use_selected(self) -> None:
+        for box, number in zip((self._hex, self._node), self._selected, strict=True):
+            if number is not None:
+                box.setValue(number)
 
     def _on_changed(self) -> None:
-        self._enable()
+        self._move.setEnabled(_value(self._node) is not None)
+        self._change.setEnabled(_value(self._hex) is not None)
         self.changed.emit(self.breakpoints())
+
+
+def _number(off: str, name: str, help: str) -> QSpinBox:
+    """Return a box for a number from 0, below which it shows the word `off`."""
+    box = QSpinBox()
+    box.setMinimum(_OFF)
+    box.setValue(_OFF)
+    box.setSpecialValueText(off)
+    box.setFont(tabular(box.font()))
+    set_help(box, name, tr(help))
+    return box
+
+
+def _limit(suffix: str, help: str) -> QDoubleSpinBox:
+    """Return a box for the limit of a change."""
+    box = QDoubleSpinBox()
+    box.setRange(0, 9.999)
+    box.setDecimals(3)
+    box.setSingleStep(0.01)
+    box.setValue(0.1)
+    box.setSuffix(suffix)
+    box.setFont(tabular(box.font()))
+    set_help(box, tr("Limit"), tr(help))
+    return box
+
+
+def _value(box: QSpinBox) -> int | None:
+    return None if box.value() == _OFF else box.value()

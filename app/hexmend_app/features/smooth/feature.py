@@ -24,7 +24,7 @@ from hexmend_app.feature import (
     StatePart,
 )
 from hexmend_app.features.smooth.pace_actions import pace_actions
-from hexmend_app.features.smooth.run_buttons import STATES, RunState
+from hexmend_app.features.smooth.run_states import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.state.run.run_controller import Phase
@@ -35,9 +35,6 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
 from hexmend_app.widgets.wording import figure
-
-#: Actions whose keys are shown on the panel's buttons.
-_BUTTONS = ("run", "step", "stop", "reset")
 
 #: Goal of Mend and metric of the colours.
 _SCALED_JACOBIAN = "scaled-jacobian"
@@ -58,11 +55,6 @@ class FeatureSmooth(Feature):
         self._seen = ChangeTracker()
         self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
-        panel.run_requested.connect(commands.run)
-        panel.step_requested.connect(commands.step)
-        panel.change_requested.connect(smoothing.change)
-        panel.pause_requested.connect(smoothing.pause)
-        panel.resume_requested.connect(smoothing.resume)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
         smoothing.set_pace(Pace(settings.RUN_PACE.get()))
         smoothing.failed.connect(self._on_failed)
@@ -78,7 +70,7 @@ class FeatureSmooth(Feature):
                 keys="F5",
                 icon="play",
                 help=tr("Run the selected method; pause or resume a run."),
-                handle=self.panel.run_or_pause,
+                handle=self.run_or_pause,
                 enabled=lambda: self._ready() and self._state().run,
                 face=self._run_face,
             ),
@@ -89,7 +81,7 @@ class FeatureSmooth(Feature):
                 keys="F10",
                 icon="skip-next",
                 help=tr("Run the number of iterations set in the panel Smooth, then pause."),
-                handle=self.panel.step,
+                handle=self.step,
                 enabled=lambda: self._ready() and self._state().step,
             ),
             Action(
@@ -143,16 +135,12 @@ class FeatureSmooth(Feature):
         )
         return (steps,)
 
-    def actions_ready(self) -> None:
-        """Show actions on the buttons of the panel."""
-        self.panel.buttons.show_actions({id: self.host.action(id) for id in _BUTTONS})
-
     def panels(self) -> Sequence[Panel]:
         """Return the panel with the method and its parameters."""
         return (
             Panel(
                 id="run",
-                title=tr("Run"),
+                title=tr("Smooth"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 group=PanelGroup.SMOOTH,
@@ -177,18 +165,46 @@ class FeatureSmooth(Feature):
             self.panel.show_rules(session.document.now.mesh)
         if phase is not Phase.PAUSED:
             self._hit = None
-        self.panel.set_state(self._state_name())
+        editable = self._state().edit
+        self.panel.set_editable(editable, editable and phase is not Phase.PAUSED)  # a run keeps its rules
         self._show_busy()
         self.panel.set_status(*self._status())
 
-    def _state_name(self) -> str:
-        """Return the name of the state of the run in `STATES`."""
-        document, phase = self.session.document, self._smoothing.phase
-        moved = document.is_open and document.now is not document.start
-        return "finished" if phase is Phase.IDLE and moved else phase.value
+    def run_or_pause(self) -> None:
+        """Run, pause or resume, depending on the state of the run; with invalid values, show the first of them."""
+        phase, setup = self._smoothing.phase, self.session.run_setup
+        if phase is Phase.RUNNING:
+            self._smoothing.pause()
+        elif phase is Phase.PAUSED:
+            setup.use(self._resume)
+        elif self._state().run:
+            setup.use(self.session.commands.run)
+
+    def step(self) -> None:
+        """Run the number of iterations of a step, if the state of the run allows it."""
+        if self._state().step:
+            self.session.run_setup.use(self._step)
+
+    def _resume(self, stage: Stage) -> None:
+        self._change(stage)
+        self._smoothing.resume()
+
+    def _step(self, stage: Stage) -> None:
+        if self._smoothing.phase is Phase.PAUSED:
+            self._change(stage)
+        self.session.commands.step(stage, self.panel.steps)
+
+    def _change(self, stage: Stage) -> None:
+        """Continue the paused run with a stage, if it differs from the active one."""
+        setup = self.session.run_setup
+        if stage != setup.active_stage:
+            setup.active_stage = stage
+            self._smoothing.change(stage)
 
     def _state(self) -> RunState:
-        return STATES[self._state_name()]
+        document, phase = self.session.document, self._smoothing.phase
+        moved = document.is_open and document.now is not document.start
+        return STATES["finished" if phase is Phase.IDLE and moved else phase.value]
 
     def _run_face(self) -> ActionFace:
         state = self._state()

@@ -1,15 +1,13 @@
-"""Panel that sets up, runs and pauses smoothing: method, parameters, stopping criteria, buttons and status."""
+"""Panel that sets up smoothing and shows its status: method, parameters, stopping criteria."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSpinBox, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.run.recipe import Stage
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.rule_form import RuleForm
-from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.palette import MUTED, WORSE, Role
@@ -18,22 +16,14 @@ from hexmend_app.theme.style import labelled, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.wording import counted, duration
 
 # Lines that most status sentences need at most.
 _LINES = 2
 
 
 class SmoothingPanel(QWidget):
-    """Panel to set up a method and to run it.
-
-    Signals
-    -------
-    run_requested(Stage), step_requested(Stage, iterations)
-        Not sent while a value is invalid.
-    change_requested(Stage)
-        Sent before a paused run is resumed with other settings.
-    pause_requested, resume_requested
+    """Panel to set up a run.
 
     Parameters
     ----------
@@ -45,17 +35,10 @@ class SmoothingPanel(QWidget):
     stage : StageForm
     """
 
-    run_requested = Signal(object)
-    step_requested = Signal(object, int)
-    change_requested = Signal(object)
-    pause_requested = Signal()
-    resume_requested = Signal()
-
     def __init__(self, setup: RunSetup, parent: QWidget | None = None):
         super().__init__(parent)
         self._setup = setup
         self._refused = False
-        self._state = "idle"
 
         stage = self.stage = StageForm(setup, self)
         method_row = QFormLayout()
@@ -72,7 +55,6 @@ class SmoothingPanel(QWidget):
             Section(tr("Stop when"), stage.stop, tr("Stopping criteria of a run.")),
             Section(tr("Pause when"), self._pauses(), tr("Length of a step, and events at which a run pauses.")),
         )
-        self.buttons = RunButtons()
 
         self._progress = ElidingLabel()  # keeps the width of the panel as the numbers grow
         self._progress.setFont(tabular(self._progress.font()))
@@ -84,9 +66,8 @@ class SmoothingPanel(QWidget):
         self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())
 
         # The height of the help depends on the method: what stands above it stays where it is.
-        rows = (method_row, self.buttons, self._progress, self._sentence, stage.help, *self._sections)
+        rows = (method_row, self._progress, self._sentence, stage.help, *self._sections)
         fill(QVBoxLayout(self), *rows, None, margins=(0, 0, 0, 0), spacing=4)
-        self.set_state("idle")
         self.set_status()
         self.stage.edited.connect(self._on_edited)
         self.rule_form.changed.connect(setup.set_rules)
@@ -118,18 +99,16 @@ class SmoothingPanel(QWidget):
     def _on_edited(self) -> None:
         self._refused = self._refused and self.stage.invalid_form is not None
 
-    def set_state(self, state: str) -> None:
-        """Enable the controls of a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
-        self._state = state
-        self.stage.set_enabled(STATES[state].edit)
-        self.rule_form.setEnabled(STATES[state].edit and state != "paused")  # a run keeps its rules
+    def set_editable(self, stage: bool, rules: bool) -> None:
+        """Enable or disable editing of the stage and of the rules of motion."""
+        self.stage.set_enabled(stage)
+        self.rule_form.setEnabled(rules)
 
     def set_status(self, iteration: int | None = None, seconds: float | None = None, sentence: str = "") -> None:
         """Show the progress of a run (seconds spent in the method) and a sentence about its state or outcome."""
         parts = [] if iteration is None else [counted(iteration, "iteration")]
         if seconds is not None:
-            digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three digits in all
-            parts.append(f"{seconds:.{digits}f} s")
+            parts.append(duration(seconds))
         text = " · ".join(parts)
         self._progress.setText(text or tr("Not run yet"))
         self._progress.setToolTip(text)
@@ -148,35 +127,6 @@ class SmoothingPanel(QWidget):
     def set_steps(self, count: int) -> None:
         """Set the number of iterations per step."""
         self._steps.setValue(count)
-
-    def run_or_pause(self) -> None:
-        """Run, pause or resume, depending on the state."""
-        if self._state == "running":
-            self.pause_requested.emit()
-        elif self._state == "paused":
-            self._setup.use(self._resume)
-        elif STATES[self._state].run:
-            self._setup.use(self.run_requested.emit)
-
-    def step(self) -> None:
-        """Request a step if the state allows it."""
-        if STATES[self._state].step:
-            self._setup.use(self._step)
-
-    def _resume(self, stage: Stage) -> None:
-        self._change(stage)
-        self.resume_requested.emit()
-
-    def _step(self, stage: Stage) -> None:
-        if self._state == "paused":
-            self._change(stage)
-        self.step_requested.emit(stage, self.steps)
-
-    def _change(self, stage: Stage) -> None:
-        """Request the rest of the run with `stage` if it differs from the active one."""
-        if stage != self._setup.active_stage:
-            self._setup.active_stage = stage
-            self.change_requested.emit(stage)
 
     def _show_problem(self) -> None:
         """Show the first invalid value and a message until it is corrected."""

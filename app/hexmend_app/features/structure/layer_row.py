@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QVBoxLayout, QWidget
 
 from hexmend_app.theme.palette import MUTED, RIM, Role
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
-
-_COLUMNS = 2
-
-#: Maximum length of texts in two columns; longer ones are cut off in a narrow panel.
-_WIDEST = 6
 
 #: Legend entry: colour (None without a mark), True for a line, and text.
 Entry = tuple[str | Role | None, bool, str]
@@ -48,12 +43,7 @@ class LayerRow:
         self._error: BaseException | None = None
         self.box = QCheckBox(name)
         self.entries = QWidget()
-        self._grid = QGridLayout(self.entries)
-        self._grid.setContentsMargins(0, 4, 0, 0)
-        self._grid.setHorizontalSpacing(4)
-        self._grid.setVerticalSpacing(4)
-        for column in range(_COLUMNS):
-            self._grid.setColumnStretch(column, 1)
+        self._lines = fill(QVBoxLayout(self.entries), margins=(0, 4, 0, 0), spacing=4)
 
     def set_on(self, on: bool) -> None:
         """Check or uncheck the box."""
@@ -63,16 +53,10 @@ class LayerRow:
     def set_entries(self, entries: list[Entry] | None, error: BaseException | None = None) -> None:
         """Show the legend; None while it is unknown, with the error if finding it failed."""
         self._entries, self._error = entries, error
-        while self._grid.count():
-            old = self._grid.takeAt(0).widget()
-            old.hide()
-            old.deleteLater()
-        if not entries:
-            text = tr("failed") if error is not None else tr("counting…") if entries is None else tr("none")
-            self._grid.addWidget(_text(text), 0, 0, 1, _COLUMNS)
-        columns = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
-        for at, entry in enumerate(entries or ()):
-            self._grid.addWidget(_entry(*entry), at // columns, at % columns, 1, _COLUMNS // columns)
+        clear(self._lines)
+        text = tr("failed") if error is not None else tr("counting…") if entries is None else tr("none")
+        for entry in entries or [(None, False, text)]:
+            self._lines.addWidget(_entry(*entry))
         self._enable()
 
     def _enable(self) -> None:
@@ -108,15 +92,10 @@ class _Mark(QWidget):
 
 
 def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
-    entry = QWidget()
-    marks = [] if colour is None else [_Mark(colour, line)]
-    fill(QHBoxLayout(entry), *marks, (_text(text), 1), margins=(0, 0, 0, 0), spacing=4)
-    return entry
-
-
-def _text(text: str) -> QWidget:
-    label = ElidingLabel(text)
+    entry, label = QWidget(), ElidingLabel(text)
     label.setFont(tabular(smaller(label.font())))
     label.setToolTip(text)
     tint(label, MUTED)
-    return label
+    marks = [] if colour is None else [_Mark(colour, line)]
+    fill(QHBoxLayout(entry), *marks, (label, 1), margins=(0, 0, 0, 0), spacing=4)
+    return entry

@@ -69,7 +69,7 @@ class FeatureTimeline(Feature):
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
-        self.panel.run_bar.show_actions({name: self.host.action(name) for name in ("run", "step", "stop")})
+        self.panel.run_bar.show_actions({name: self.host.action(name) for name in ("run", "step", "stop", "reset")})
 
     def panels(self) -> Sequence[Panel]:
         """Return the bar below the view."""
@@ -89,7 +89,8 @@ class FeatureTimeline(Feature):
         self.panel.setVisible(self.session.document.is_open)
         smoothing = self._smoothing
         failed = smoothing.phase is Phase.IDLE and smoothing.record is not None  # a run that ends otherwise is finished
-        self.panel.run_bar.set_state(smoothing.phase, smoothing.outcome, failed, smoothing.undone)
+        inverted = self.session.document.now.summary.inverted if self.session.document.is_open else 0
+        self.panel.run_bar.set_state(smoothing.phase, smoothing.outcome, failed, smoothing.undone, inverted)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record

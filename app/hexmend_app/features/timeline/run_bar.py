@@ -1,4 +1,4 @@
-"""Buttons to run, step and stop below the view, with the state of the run in a word."""
+"""Buttons to run, step, stop and reset below the view, with the state of the run in a word."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend.iteration import Outcome
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, WORSE
+from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, ON_ACCENT, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, tint
+from hexmend_app.theme.style import bold, set_variant, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -43,7 +43,7 @@ _ENDS = {
 _FAILED = "Failed", WORSE
 _UNDONE = "Undone", MUTED
 
-_BUTTONS = "run", "step", "stop"
+_BUTTONS = "step", "stop", "reset"
 
 #: Texts that the first button has in turn.
 _FACES = "Run", "Pause", "Resume", "Preparing", "Stopping"
@@ -53,7 +53,7 @@ class _State(ElidingLabel):
     """Label that has the width of the longest word, and is elided in a narrow window."""
 
     def sizeHint(self) -> QSize:
-        words = (tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values()))
+        words = (self.text(), *(tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values())))
         return QSize(max(map(self.fontMetrics().horizontalAdvance, words)) + 4, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
@@ -61,32 +61,43 @@ class _State(ElidingLabel):
 
 
 class RunBar(QWidget):
-    """Row of buttons that run, step and stop, and the word for the state of the run."""
+    """Row of buttons that run, step, stop and reset, and the word for the state of the run."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._buttons = {name: ActionButton(with_text=name == "run") for name in _BUTTONS}
+        run = ActionButton(role=ON_ACCENT, with_text=True)
+        set_variant(run, "main")
+        self._buttons = {"run": run} | {name: ActionButton() for name in _BUTTONS}
         self._state = _State()
         self._state.setAccessibleName(tr("State of the run"))
         self._state.setFont(bold(self._state.font()))
-        for button in self._buttons.values():
-            button.setAutoRaise(True)
+        for name in _BUTTONS:
+            self._buttons[name].setAutoRaise(True)
         fill(QHBoxLayout(self), *self._buttons.values(), self._state, margins=(0, 0, 0, 0), spacing=4)
-        self._buttons["run"].reserve_width(map(tr, _FACES), around=16)
+        run.reserve_width(map(tr, _FACES), around=20)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Show the actions "run", "step" and "stop"."""
+        """Show the actions "run", "step", "stop" and "reset"."""
         for name, button in self._buttons.items():
             button.show_action(actions[name])
 
-    def set_state(self, phase: Phase, outcome: Outcome | None, failed: bool = False, undone: bool = False) -> None:
-        """Show the word for a phase of a run, for its outcome if it has ended, or that it failed or was undone."""
+    def set_state(
+        self, phase: Phase, outcome: Outcome | None, failed: bool = False, undone: bool = False, inverted: int = 0
+    ) -> None:
+        """Show the word for a phase of a run, for its outcome if it has ended, or that it failed or was undone.
+
+        A run that ended well but left some hexes inverted has their number, and the colour of a warning.
+        """
         if failed or undone:
             word, colour = _FAILED if failed else _UNDONE
         else:
             word, colour = _ENDS[outcome] if phase is Phase.FINISHED else _PHASES[phase]
-        if self._state.text() != tr(word):
-            self._state.setText(tr(word))
+        text = tr(word)
+        if inverted and colour is BETTER:
+            text, colour = tr("{word}, {count:,} inverted", word=text, count=inverted), AMBER
+        if self._state.text() != text:
+            self._state.setText(text)
+            self._state.setToolTip(text)
             tint(self._state, colour)
 
     @property

@@ -157,13 +157,11 @@ class TimelineBar(QWidget):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addSection(tr("Memory limit"))
-        self._limits = self._options(menu, LIMITS, lambda mb: size(mb << 20), self.limit_changed)
-        self._used = menu.addAction("")
+        limits, speeds = menu.addMenu(tr("Memory limit")), menu.addMenu(tr("Playback speed"))
+        self._limits = self._options(limits, LIMITS, lambda mb: size(mb << 20), self.limit_changed)
+        self._used = limits.addAction("")
         self._used.setEnabled(False)
-        menu.addSection(tr("Playback speed"))
-        self._speeds = self._options(menu, SPEEDS, lambda n: tr("{n} iterations per second", n=n), self.speed_changed)
-        menu.addSeparator()
+        self._speeds = self._options(speeds, SPEEDS, lambda n: tr("{n} iterations per second", n=n), self.speed_changed)
         self.delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
         return menu
 

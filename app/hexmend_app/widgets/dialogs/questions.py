@@ -165,6 +165,12 @@ def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
     return name if name not in names or _ask_yes(parent, problem, tr("Replace it?")) else ""
 
 
+def ask_new_name(parent: QWidget, title: str, name: str) -> str:
+    """Ask for another name of something, with the title of the question; "" if cancelled."""
+    text, accepted = QInputDialog.getText(parent, title, tr("New name:"), QLineEdit.EchoMode.Normal, name)
+    return text.strip() if accepted else ""
+
+
 def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True, in_session: bool = False) -> Answer:
     """Ask about an unsaved mesh or, without `of_mesh`, about cameras not saved in a session.
 

@@ -44,6 +44,7 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
     def __init__(self, declaration: Parameter, parent: QWidget | None = None):
         super().__init__(parent)
         self._declaration = declaration
+        self._zero = tr(declaration.zero) if declaration.zero else ""
         self._value = self._committed = declaration.default
         self.problem = ""
         # Values change while the user types, so Qt must neither delay signals nor correct the text.
@@ -81,18 +82,18 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
             If the declaration does not admit it.
         """
         self._value = self._committed = self._declaration.check(value)
-        self.lineEdit().setText(_text(self._value))
+        self.lineEdit().setText(self._text_of(self._value))
         self._set_problem("")
 
     def _parse(self, text: str) -> None:
         try:
-            value = self._declaration.parse(text.strip())
+            value = self._declaration.parse("0" if self._zero and text.strip() == self._zero else text.strip())
             if not isinstance(value, str) and not math.isfinite(value):
                 raise ParameterError(f"{text} is not finite")
         except ParameterError:
             # Not the last valid text: while 1e-3 is typed, that is 1.
             self._value = self._committed
-            expected, previous = self._declaration.range, _text(self._value)
+            expected, previous = self._declaration.range, self._text_of(self._value)
             self._set_problem(
                 tr(
                     "Expected {expected}. {previous} is used until this is corrected.",
@@ -169,14 +170,16 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
 
+    def _text_of(self, value: float | int | str) -> str:
+        """Return the text of a value; that of 0 may be a word."""
+        if isinstance(value, str):
+            return value
+        return self._zero if self._zero and value == 0 else short_number(value)
+
     def _commit(self) -> None:
         """Write a valid value in its shortest form after editing."""
         if not self.problem:
             self.set_value(self._value)
-
-
-def _text(value: float | int | str) -> str:
-    return value if isinstance(value, str) else short_number(value)
 
 
 def _colour_unit(label: QLabel) -> None:

@@ -1,13 +1,12 @@
 """Saved cameras: naming, applying, renaming, deleting, and their use in pictures."""
 
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMessageBox
+from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
-from tests.app.driving import button, open_and_wait, type_text
+from tests.app.driving import open_and_wait
 
 
 @pytest.fixture
@@ -23,16 +22,11 @@ def saved(window):
     return poses
 
 
-@pytest.fixture
-def dialog(window, saved, qtbot):
-    dialog = window.features["camera"].cameras_dialog()
-    qtbot.addWidget(dialog)
-    dialog.show()
-    return dialog
-
-
-def names(dialog):
-    return [dialog.list.item(row).text() for row in range(dialog.list.count())]
+def entries(menu):
+    """Fill a menu as when it is shown, and return its entries by name; of submenus too."""
+    menu.aboutToShow.emit()
+    parts = (menu, *(one.menu() for one in menu.actions() if one.menu() is not None))
+    return [{one.text()[4:].replace("&&", "&"): one for one in part.actions() if one.menu() is None} for part in parts]
 
 
 def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):
@@ -57,39 +51,27 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
     assert window.messages.messages()[-1][1] == "Camera not saved"
 
 
-@pytest.mark.slow
-def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
-    assert names(dialog) == list(saved)
-    dialog.list.setCurrentRow(1)
-    button(dialog, "&Go to").click()
+def test_the_menu_applies_and_deletes_cameras(window, saved):
+    menu = window.features["camera"].menu
+    go, _, _ = entries(menu)
+    assert [name for name in go if name] == list(saved)
+    go["top"].trigger()
     assert window.canvas.pose == saved["top"]
-    button(dialog, "&Delete").click()
-    qtbot.waitUntil(lambda: names(dialog) == ["front & side"])
-    button(dialog, "&Delete").click()
-    qtbot.waitUntil(lambda: not names(dialog))
-    assert not button(dialog, "&Go to").isEnabled()
+    for name in saved:
+        entries(menu)[2][name].trigger()
     assert window.session.saved_cameras.all == {}
+    assert not menu.menuAction().isEnabled()
 
 
-def type_name(dialog, row, text):
-    dialog.list.setCurrentRow(row)
-    button(dialog, "&Rename").click()
-    editor = dialog.list.findChildren(QLineEdit)[-1]
-    type_text(editor, text, enter=True)
-
-
-@pytest.mark.slow
-def test_the_dialog_renames(window, saved, dialog, qtbot):
+def test_the_menu_renames_unless_the_name_exists(window, saved, monkeypatch):
     camera = window.session.saved_cameras.all["top"]
-    type_name(dialog, 1, "from above")
-    # The list is refilled in the event loop, which closes an editor: wait for it before the next name.
-    item_name = Qt.ItemDataRole.UserRole
-    qtbot.waitUntil(lambda: dialog.list.item(1).data(item_name) == "from above")
+    menu = window.features["camera"].menu
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("from above", True))
+    entries(menu)[1]["top"].trigger()
     assert window.session.saved_cameras.all["from above"] == camera
-    type_name(dialog, 0, "from above")
-    problem = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
-    qtbot.waitUntil(lambda: "already" in problem.text())
-    assert names(dialog) == list(window.session.saved_cameras.all) == ["front & side", "from above"]
+    entries(menu)[1]["front & side"].trigger()
+    assert "already" in " ".join(window.messages.messages()[-1])
+    assert list(window.session.saved_cameras.all) == ["front & side", "from above"]
 
 
 @pytest.mark.slow

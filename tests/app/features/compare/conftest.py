@@ -18,6 +18,6 @@ def comparing(window, qtbot):
 def compared(comparing, qtbot):
     """Return a window with the results of three methods."""
     choose_methods(comparing, "laplacian", "getme", "local-sd")
-    press(button(comparing, "Run comparison"))
+    press(button(comparing, "Compare methods"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy)
     return comparing

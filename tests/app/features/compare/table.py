@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton, QTableView, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QTableView, QWidget
 
 from hexmend.report.comparison import LINES
 from hexmend.run import StoppingCriteria
@@ -40,7 +40,7 @@ def tick(window, name, column):
 
 def button(window, name):
     window.refresh()
-    return named(window.features["compare"].panel, QPushButton, name)
+    return named(window.features["compare"].panel, QAbstractButton, name)
 
 
 def choose_methods(window, *names):

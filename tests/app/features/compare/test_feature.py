@@ -8,12 +8,14 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QToolButton
 
-from hexmend import METHODS, compare
+from hexmend import METHODS, StoppingCriteria, compare
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.features.compare.comparison_table import VIEW, ComparisonModel, ComparisonRow, title_of
+from hexmend_app.features.compare.comparison_table import METHOD, VIEW, ComparisonModel, ComparisonRow, title_of
 from hexmend_app.features.side_views.feature import STEP
 from hexmend_app.picture.cut import Cut
-from tests.app.driving import LEFT, choose, drag, key, named, pixels, press, seen_at
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.theme.palette import MUTED
+from tests.app.driving import LEFT, choose, drag, key, named, phase, pixels, press, seen_at
 from tests.app.features.compare.table import (
     COLUMN,
     ENDLESS,
@@ -64,7 +66,7 @@ def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparin
     comparison = comparing.session.comparison
     choose(comparing, "mend", ENDLESS)
     choose_methods(comparing, "local-sd", "mend")
-    press(button(comparing, "Run comparison"))
+    press(button(comparing, "Compare methods"))
     qtbot.waitUntil(reached.is_set)
     comparing.refresh()
     enabled = comparing.window_actions["compare"].isEnabled()
@@ -120,6 +122,48 @@ def test_a_column_has_one_number_of_decimals_and_equal_texts_are_marked_alike():
         if table.index(at, COLUMN["q_min"]).data(Qt.ItemDataRole.FontRole) is not None
     }
     assert bold == {"laplacian", "getme"}
+
+
+# Results of all runs.
+
+
+def run(window, qtbot, name, stop, **values):
+    """Run a method from the mesh at the start."""
+    window.session.commands.reset()
+    window.session.run.start(METHODS[name](**values), stop)
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    return window.session.timeline.record
+
+
+@pytest.mark.slow
+def test_runs_are_rows_and_a_dominated_one_is_grey(comparing, qtbot):
+    better = run(comparing, qtbot, "local-sd", StoppingCriteria(max_iterations=8))
+    worse = run(comparing, qtbot, "local-sd", StoppingCriteria(max_iterations=1), p=4)
+    table = model(comparing)
+    at = [row(comparing, f"Run: {record.name}") for record in (better, worse)]
+    for number, record in zip(at, (better, worse), strict=True):
+        assert table.rows[number].record["q_min"] == record.end.summary.q_min
+        assert not table.flags(table.index(number, METHOD)) & Qt.ItemFlag.ItemIsUserCheckable
+    grey = table.index(at[1], METHOD)
+    assert grey.data(Qt.ItemDataRole.ForegroundRole).color().name() == str(MUTED)
+    assert f"Dominated by Run: {better.name}" in grey.data(Qt.ItemDataRole.ToolTipRole)
+    assert "p=4, max_iterations=1" in grey.data(Qt.ItemDataRole.ToolTipRole)
+    assert table.index(at[0], METHOD).data(Qt.ItemDataRole.ForegroundRole) is None
+    tick(comparing, f"Run: {worse.name}", VIEW)
+    assert comparing.session.side_views.all[0].state is worse.end
+
+
+def test_the_result_of_a_run_and_the_mesh_at_the_start_are_shown(comparing, qtbot):
+    first = run(comparing, qtbot, "local-sd", StoppingCriteria(max_iterations=2))
+    run(comparing, qtbot, "laplacian", StoppingCriteria(max_iterations=1, keep_last=True))
+    timeline, document = comparing.session.timeline, comparing.session.document
+    table = table_of(comparing)
+    table.selectRow(row(comparing, f"Run: {first.name}"))
+    press(button(comparing, "Use result"))
+    assert (timeline.shown_iteration.record, timeline.shown_iteration.number) == (first, first.result)
+    table.selectRow(row(comparing, "initial"))
+    press(button(comparing, "Use result"))
+    np.testing.assert_array_equal(document.now.mesh.points, document.start.mesh.points)
 
 
 # Results of a comparison in views side by side, by mouse and keys.

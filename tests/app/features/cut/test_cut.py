@@ -332,6 +332,12 @@ def test_a_slab_is_turned_moved_and_made_thicker(panel, emitted):
     assert emitted[-1] == before
 
 
+def test_the_position_of_a_plane_is_typed(panel, emitted):
+    choose_kind(panel, "planes")
+    type_into(panel, "Position in mesh units", "2.25")
+    assert emitted[-1] == Cut.at((1, 0, 0), (2.25, 15, 3))
+
+
 def test_pages_that_are_hidden_change_their_own_cut(panel, emitted):
     choose_kind(panel, "planes")
     planes = emitted[-1]

@@ -1,13 +1,14 @@
 """The doctor in the window: findings with their locations, repairs and undo."""
 
+import re
+
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QPushButton
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.mesh.document import State
-from tests.app.driving import press, texts
+from tests.app.driving import texts
 
 
 def unmerged():
@@ -30,8 +31,8 @@ def panel(window, qtbot):
 
 
 def repairs(panel):
-    """Return the buttons that repair."""
-    return [one for one in panel.findChildren(QPushButton) if one.text() == "Repair" and one.isVisible()]
+    """Return the links that repair."""
+    return re.findall('<a href="(repair [^"]*)"', panel.text.text())
 
 
 def test_findings_are_listed_with_their_locations(window, panel):
@@ -39,21 +40,21 @@ def test_findings_are_listed_with_their_locations(window, panel):
     assert all(text in shown for text in ("Left-handed hexes", "blocks that are not merged", "Hexes 27, 28, 29"))
 
 
-def repair(qtbot, session, button):
-    """Press a button that repairs, and wait until the mesh is repaired."""
+def repair(qtbot, session, panel):
+    """Follow the first link that repairs, and wait until the mesh is repaired."""
     with qtbot.waitSignal(session.repairer.ended):
-        press(button)
+        panel.text.linkActivated.emit(repairs(panel)[0])
 
 
 @pytest.mark.slow
 def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
-    repair(qtbot, session, repairs(panel)[0])
+    repair(qtbot, session, panel)
     assert session.document.now.summary.inverted == 0
     assert session.document.undo_title == "repair left-handed hexes"
     qtbot.waitUntil(lambda: len(repairs(panel)) == 1)
-    repair(qtbot, session, repairs(panel)[0])
+    repair(qtbot, session, panel)
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
     session.commands.undo()
     session.commands.undo()
@@ -71,3 +72,12 @@ def test_changes_on_reading_are_remembered(window, panel):
     window.session.document.replace(State.of(unmerged()), None)
     window.refresh()
     assert "Changed on reading" not in " ".join(texts(panel))
+
+
+def test_inverted_hexes_are_named_with_what_helps(window, panel):
+    assert "27 hexes are inverted: " in panel.text.text()
+    panel.text.linkActivated.emit("smooth")
+    assert window.in_front("run")
+    window.session.document.replace(State.of(make("cube", size=27)), None)
+    window.refresh()
+    assert "inverted" not in panel.text.text()

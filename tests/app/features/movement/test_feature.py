@@ -7,8 +7,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
 from hexmend_app.picture import Cut, Range
+from hexmend_app.picture.appearance import Arrows, Since
 from tests.app.driving import brought, named, pixels, smooth, type_text
-from tests.app.driving import press as press_button
 
 
 @pytest.fixture
@@ -22,8 +22,11 @@ def record(window, qtbot):
     return window.session.run.record
 
 
-def press(segmented, key):
-    press_button(segmented.button(key))
+def choose(box, value):
+    """Select an entry as the user does."""
+    box.setCurrentIndex(box.findData(value.value))
+    box.activated.emit(box.currentIndex())
+    box.window().refresh()
 
 
 def arrows_text(panel):
@@ -39,14 +42,15 @@ def go(window, record, number):
 @pytest.mark.slow
 def test_colours_follow_the_iteration_and_the_reference_state(window, record, panel):
     viewport, timeline = window.canvas.viewport, window.session.timeline
-    press(panel.colours, "q-change")
+    window.session.view.colour_by("q-change")
+    window.refresh()
     assert window.session.view.look.colours.range is Range.FITTED
     assert viewport.colouring.title == "change of q(H) since the file was opened"
     np.testing.assert_array_equal(
         viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
     )
     go(window, record, 3)
-    press(panel.since, "iteration")
+    choose(panel.since, Since.ITERATION)
     then = window.session.history.state(type(timeline.shown_iteration)(record, 2), window.session.document.now.mesh)
     np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
@@ -55,7 +59,8 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     assert viewport.colouring.title == f"change of q(H) since {record.name} 3"
     go(window, record, 0)
     assert not viewport.colours.values.any()
-    press(panel.colours, "")
+    window.session.view.colour_by("q")
+    window.refresh()
     assert window.session.view.look.colours.metric == "q"
     assert window.session.view.look.colours.range is Range.FULL
 
@@ -63,11 +68,11 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
 @pytest.mark.slow
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
-    press(panel.arrows, "all")
+    choose(panel.arrows, Arrows.ALL)
     layer = window.canvas.viewport.overlay_layers.arrows
     assert (layer.drawn, layer.moved) == (free, free)
     assert arrows_text(panel) == f"{free:,} arrows, true length."
-    press(panel.arrows, "sight")
+    choose(panel.arrows, Arrows.SIGHT)
     assert arrows_text(panel) == "No visible node has moved."
     window.session.view.set_cut(Cut.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)

@@ -27,6 +27,7 @@ from hexmend_app.state.tasks.task import running
 from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT, button, key, named, open_and_wait, press, smooth
 from tests.app.invalid_hexes import INSIDE, THREE
+from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid, scrambled
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 from tests.patience import PATIENCE
@@ -224,7 +225,7 @@ def test_it_counts_and_says_what_to_do():
     title, text = card("a.vtu", State.of(make("bridge-sharp", size=864, scramble=0.6)), ())
     assert title.startswith("a.vtu: 864 hexes, ")
     assert "Run Mend to untangle them" in text
-    assert text_of(make("cube", size=27)) == "No hex is invalid. Minimum scaled Jacobian 1.000."
+    assert text_of(make("cube", size=27)) == "No hex is invalid. Minimum scaled Jacobian 1.0000."
     flat = make("cube", size=27)
     assert "some have a low quality" in text_of(
         flat.with_points(flat.points * [1, 1, 1] + 1.3 * np.sin(flat.points[:, ::-1] * 7) / 7)
@@ -243,8 +244,10 @@ def test_it_says_what_fixed_nodes_hold():
     assert "Fixed nodes" in text_of(mesh)
 
 
-def test_it_counts_materials():
+def test_it_counts_materials_and_tells_the_order():
     assert "2 materials." in text_of(make("materials", size=300))
+    assert "second order" in text_of(curved_shell(20))
+    assert "second order" not in text_of(make("cube", size=27))
 
 
 @pytest.mark.slow

@@ -7,12 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import (
     METHODS,
-    LocalSteepestDescent,
     MotionRules,
     Stage,
     StoppingCriteria,
@@ -28,7 +26,7 @@ from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import button, click, click_until, key, named, open_mesh, phase, press, run_to_end, texts
 from tests.app.driving import texts as visible_texts
-from tests.core.grids import displaced, grid, scrambled
+from tests.core.grids import displaced, grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
 
@@ -87,8 +85,7 @@ def test_a_suggestion_is_selected_without_a_run_and_improves_the_mesh(window, qt
     assert window.session.run.phase is Phase.FINISHED
     click(window, "Run")
     qtbot.waitUntil(lambda: window.session.run.busy)
-    window.refresh()
-    assert not choice(window, "Select: Mend").isEnabled()
+    assert "A run is in progress" in outcome_texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert window.session.document.now.summary.inverted == 0
     assert "Why Mend stopped" in outcome_texts(window)
@@ -112,14 +109,12 @@ def test_a_suggestion_that_undoes_the_run_restores_the_mesh_before_it(window, qt
 def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in outcome_texts(window)
-    press_choice(window, "Show the locked hexes")
+    assert '<a href="locked">Show</a>' in outcome_texts(window)
+    window.features["outcome"].panel.text.linkActivated.emit("locked")
     assert window.session.view.look.show.isolate.hexes == (locked,)
     assert window.session.selection.hex == locked
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.show.isolate is None
-    choice(window, "Show the locked hexes").setFocus()
-    QTest.keyClick(choice(window, "Show the locked hexes"), Qt.Key.Key_Space)
-    assert window.session.view.look.show.isolate is not None
 
 
 # Notice at the end of a run, whatever panel is open.
@@ -130,7 +125,7 @@ def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
     run_to_end(window, qtbot, "mend")
     title, text = window.messages.title.text(), window.messages.text.text()
     counts = rf"{start.summary.inverted} → 0 inverted · {start.summary.invalid} → 0 invalid"
-    pattern = rf"{counts} · q min 0\.\d{{3}} · scaled Jacobian min 0\.\d{{3}}"
+    pattern = rf"{counts} · q min 0\.\d{{4}} · scaled Jacobian min 0\.\d{{4}}"
     assert re.fullmatch(pattern, title)
     assert re.fullmatch(r"\d+ iterations · [\d.]+ s · Converged.*", text)
     press(button(window.messages, "Undo"))
@@ -256,10 +251,9 @@ def test_a_run_stopped_before_its_first_iteration_gets_no_suggestions(panel):
     run.close()
     panel.show_advice("Why mend stopped", advise(run.result()))
     assert any("before its first iteration" in text for text in texts(panel))
-    assert not any("No further suggestions" in text or text == "Suggestions" for text in texts(panel))
+    assert not any("No further suggestions" in text or "<b>Suggestions</b>" in text for text in texts(panel))
     panel.show_advice("Why mend stopped", advise(smooth(make("cube", size=27), "mend")))
-    assert "No further suggestions." in texts(panel)
-    assert "Suggestions" in texts(panel)
+    assert any("No further suggestions." in text and "<b>Suggestions</b>" in text for text in texts(panel))
 
 
 def test_hexes_left_inverted_have_the_numbers_of_the_file_too(panel):
@@ -268,48 +262,4 @@ def test_hexes_left_inverted_have_the_numbers_of_the_file_too(panel):
     assert advice.unlocked.size
     panel.show_advice("Why Laplacian stopped", advice, np.arange(125) + 501)
     listed = ", ".join(str(number + 501) for number in advice.unlocked[:24])
-    assert any(text.startswith("Inverted: ") and text.endswith(f" (in the file {listed})") for text in texts(panel))
-
-
-# After undo, reset and a move in the timeline, a note says that the mesh in the view is not the result of the run.
-
-
-@pytest.fixture
-def smoothed_host(hosted):
-    return hosted(scrambled(grid(4), 0.3))
-
-
-@pytest.fixture
-def shown_texts(smoothed_host, qtbot):
-    """Return a function that gives the texts of the panel after a run of eight iterations."""
-    feature = FeatureOutcome(smoothed_host)
-    qtbot.addWidget(feature.panel)
-    with qtbot.waitSignal(smoothed_host.session.run.ended):
-        smoothed_host.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
-
-    def visible_texts():
-        feature.refresh()
-        return " ".join(label.text() for label in feature.panel.findChildren(QLabel) if not label.isHidden())
-
-    return visible_texts
-
-
-def test_the_result_of_the_run_has_no_note(shown_texts):
-    assert "Why Local steepest descent stopped" in shown_texts()
-    assert "The view shows" not in shown_texts()
-
-
-@pytest.mark.parametrize("command", ["undo", "reset"])
-def test_the_note_after_undo_and_reset(smoothed_host, shown_texts, command):
-    getattr(smoothed_host.session.commands, command)()
-    assert "the mesh before the run" in shown_texts()
-    if command == "undo":
-        smoothed_host.session.commands.redo()
-    else:
-        smoothed_host.session.commands.undo()
-    assert "the mesh before the run" not in shown_texts()
-
-
-def test_the_iteration_in_the_view_is_named(smoothed_host, shown_texts):
-    smoothed_host.session.timeline.go(smoothed_host.session.timeline.record, 5)
-    assert "at Local steepest descent 5" in shown_texts()
+    assert any("Inverted (not locked): " in text and f" (in the file {listed})" in text for text in texts(panel))

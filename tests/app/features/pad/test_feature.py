@@ -38,7 +38,8 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
     now = pad(qtbot, session, choice)
     assert now.summary.inverted == 0
     assert session.document.undo_title == "pad"
-    assert "The layer has" in window.messages.title.text()
+    assert window.messages.title.text() == "1 → 0 inverted"
+    assert "The layer has" in window.messages.text.text()
     np.testing.assert_array_equal(
         now.mesh.points[: before.mesh.n_nodes][before.mesh.fixed], before.mesh.points[before.mesh.fixed]
     )

@@ -203,7 +203,8 @@ def test_a_recipe_and_a_comparison_need_consent(window, asked):
     session.recipe_draft.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
     window.features["recipe"].run()
     assert session.run.phase is Phase.IDLE
-    window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
+    window.features["compare"].panel.model.tick(["laplacian", "mend"])
+    window.features["compare"].run()
     assert not session.comparison.busy
     assert len(asked) == 2
 
@@ -329,13 +330,12 @@ def test_a_set_that_the_mesh_lacks_is_shown_as_long_as_it_has_a_rule(form, mesh)
     assert "Rule of other" not in boxes(form)
 
 
-def test_the_form_is_hidden_for_a_mesh_without_sets_and_while_a_run_is_paused(host):
+def test_the_form_is_hidden_for_a_mesh_without_sets(host):
     feature, panel = host.feature, host.feature.panel
     feature.refresh()
     section = panel.rule_form.parentWidget().parentWidget()
     assert not section.isHidden()
-    panel.set_state("paused")
-    assert not panel.rule_form.isEnabled()
+    assert panel.rule_form.isEnabled()
     host.session.document.replace(State.of(make("cube", size=27)), None)
     feature.refresh()
     assert section.isHidden()
@@ -420,16 +420,9 @@ def test_rules_of_a_tag_that_is_removed_do_not_pass_to_another(host):
     assert session.run_setup.rules == MotionRules(fix=("low",))
 
 
-# Requests and states of the smoothing panel.
+# The smoothing panel, and the commands that use what it sets.
 
 
-_STATES = ("idle", "preparing", "running", "paused", "finished")
-_SIGNALS = (
-    "run_requested",
-    "step_requested",
-    "pause_requested",
-    "resume_requested",
-)
 _STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7))
 
 
@@ -446,37 +439,27 @@ def panel(shown, setup):
     return shown(SmoothingPanel(setup), 360, 700)
 
 
-@pytest.fixture
-def heard(panel):
-    calls = []
-    for name in _SIGNALS:
-        getattr(panel, name).connect(lambda *args, name=name: calls.append((name, *args)))
-    return calls
+def test_nothing_is_edited_while_a_run_is_active(host, qtbot):
+    feature, run, form = host.feature, host.session.run, host.feature.panel.stage
+    editable = {}
 
+    def look():
+        feature.refresh()
+        parts = (form.parameters, form.stop, form.method)
+        assert len({part.isEnabled() for part in parts}) == 1
+        editable[run.phase] = form.method.isEnabled()
+        assert not feature.panel.rule_form.isEnabled() or run.phase in (Phase.IDLE, Phase.FINISHED)
 
-def sections(panel):
-    return panel.findChildren(Section)
-
-
-def test_run_and_step_request_the_stage_of_the_form(panel, heard):
-    panel.run_or_pause()
-    panel.step()
-    assert heard == [("run_requested", _STAGE), ("step_requested", _STAGE, 1)]
-
-
-def test_the_main_button_runs_pauses_and_resumes(panel, heard):
-    for state in _STATES:
-        panel.set_state(state)
-        panel.run_or_pause()
-    assert [call[0] for call in heard] == ["run_requested", "pause_requested", "resume_requested", "run_requested"]
-
-
-@pytest.mark.parametrize("state", _STATES)
-def test_nothing_is_edited_while_a_run_is_active(panel, state):
-    panel.set_state(state)
-    method = named(panel, QComboBox, "Method")
-    assert panel.stage.parameters.isEnabled() is panel.stage.stop.isEnabled() is method.isEnabled()
-    assert panel.stage.parameters.isEnabled() is (state in ("idle", "paused", "finished"))
+    run.phase_changed.connect(look)
+    host.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria(tolerance=0)))
+    feature.step()
+    qtbot.waitUntil(lambda: run.phase is Phase.PAUSED)
+    with qtbot.waitSignal(run.ended):
+        run.stop()
+    look()
+    on = {Phase.PAUSED, Phase.FINISHED}
+    assert on <= set(editable)
+    assert {phase for phase, enabled in editable.items() if enabled} == on
 
 
 def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
@@ -491,30 +474,35 @@ def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
     assert setup.stage == _STAGE
 
 
-def test_a_stage_set_elsewhere_is_shown(panel, setup, heard):
+def test_a_stage_set_elsewhere_is_shown(panel, setup):
     setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
     assert panel.stage.stop.values()["max_iterations"] == 3
-    assert heard == []
-    panel.run_or_pause()
-    assert heard == [("run_requested", setup.stage)]
 
 
-def test_settings_changed_while_paused_change_the_run(panel, setup):
-    changes = heard_from(panel.change_requested)
-    setup.active_stage = setup.stage
-    panel.set_state("paused")
-    panel.run_or_pause()
-    assert changes == []
-    panel.stage.parameters.editor("scaling").setFocus()
-    panel.stage.parameters.editor("scaling").stepUp()
-    panel.run_or_pause()
-    assert changes == [setup.stage]
-    assert setup.stage.smoother.scaling > 0.25
+def test_settings_changed_while_paused_change_the_run(host, qtbot):
+    feature, session = host.feature, host.session
+    session.run_setup.choose(Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(tolerance=0)))
+    for _ in range(2):  # the second step continues with the same stage
+        feature.step()
+        qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED)
+    record = session.run.record
+    assert [stage for _, stage in record.changes] == []
+    feature.panel.stage.parameters.editor("scaling").stepUp()
+    feature.step()
+    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED and record.newest == 3)
+    ((number, stage),) = record.changes
+    assert number == 2
+    assert stage.smoother.scaling > 0.25
+    with qtbot.waitSignal(session.run.ended):
+        session.run.stop()
 
 
-def test_run_shows_an_invalid_value(panel, setup, heard):
-    parameters = sections(panel)[0]
+def test_run_shows_an_invalid_value(host, shown):
+    feature, setup = host.feature, host.session.run_setup
+    setup.choose(_STAGE)
+    panel = shown(feature.panel, 360, 700)
+    parameters = panel.findChildren(Section)[0]
     parameters.expand()
     editor = panel.stage.parameters.editor("scaling")
     editor.lineEdit().setFocus()
@@ -522,19 +510,27 @@ def test_run_shows_an_invalid_value(panel, setup, heard):
     assert setup.stage is None
     assert setup.smoother is None
     parameters.collapse()
-    panel.run_or_pause()
-    panel.step()
-    assert heard == []
+    feature.run_or_pause()
+    feature.step()
+    assert host.session.run.phase is Phase.IDLE
     assert "Correct" in named(panel, QLabel, "Outcome").text()
     assert editor.isVisible()
     assert editor.hasFocus()
 
 
+def test_no_time_limit_is_called_none(panel, setup):
+    seconds = panel.stage.stop.editor("max_seconds")
+    assert seconds.lineEdit().text() == "none"
+    type_text(seconds.lineEdit(), "20")
+    assert setup.stage.stop.max_seconds == 20
+    type_text(seconds.lineEdit(), "none")
+    assert setup.stage.stop.max_seconds == 0
+
+
 def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     panel.set_status(12, 1.839, "Converged: no node moved further than the tolerance. " * 3)
     progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
-    assert progress.text().split("·")[0].strip() == "12 iterations"
-    assert "1.84 s" in progress.text()
+    assert progress.text() == "12 iterations · 1.84 s"
     qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
     assert sentence.width() <= panel.width()
 

@@ -210,6 +210,7 @@ def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
     io.write(tmp_path / "cube.vtu", grid(3))
     open_and_wait(qtbot, five, tmp_path / "cube.vtu")
     assert five.session.structure_finder.result is None
+    five.refresh()
     assert five.canvas.viewport.frame.look.structure.on.isdisjoint(EDGE_LAYERS)  # the view does not wait for them
     qtbot.waitUntil(lambda: five.session.structure_finder.result is not None)
     five.refresh()

@@ -2,28 +2,30 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QTableWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QInputDialog, QLabel
 
 from hexmend import LocalSteepestDescent, StoppingCriteria, io
 from hexmend_app.features.tags.feature import FeatureTags
-from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import LEFT, brought, button, heard_from, key, press, type_text
+from tests.app.driving import key, named, press, type_text
 from tests.app.hosting import action
 from tests.core.grids import grid, scrambled
 
 
 @pytest.fixture
-def panel(window, qtbot):
-    return brought(window, qtbot, "tags")
+def strip(window):
+    window.action("tags").trigger()
+    return window.features["tags"].strip
 
 
-def listed(panel):
-    panel.window().refresh()
-    table = panel.findChild(QTableWidget)
-    return [[table.item(row, column).text() for column in range(4)] for row in range(table.rowCount())]
+def about(strip):
+    strip.window().refresh()
+    return named(strip, QLabel, "About the tag").text()
+
+
+def write_name(strip, name):
+    type_text(strip.findChild(QComboBox).lineEdit(), name)
 
 
 def seen(window):
@@ -35,9 +37,12 @@ def tags(window):
     return {name: members.tolist() for name, members in window.session.document.now.mesh.hex_sets.items()}
 
 
-def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp_path):
+def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, tmp_path):
+    strip = window.features["tags"].strip
+    assert not strip.isVisible()
     key(window, Qt.Key.Key_T)
     assert tags(window) == {}
+    assert strip.isVisible()
     key(window, Qt.Key.Key_N)
     first = window.session.selection.hex
     key(window, Qt.Key.Key_T)
@@ -45,15 +50,14 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp
     second = window.session.selection.hex
     key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": sorted([first, second])}
-    assert listed(panel) == [
-        ["tagged", "2", "2", f"{window.session.document.now.figures.q[[first, second]].min():.4f}"]
-    ]
+    least = window.session.document.now.figures.q[[first, second]].min()
+    assert about(strip) == f"2 hexes, 2 inverted, q min {least:.4f}"
     key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": [first]}
-    assert f"Hex {second:,}" in seen(window)
+    assert f"Hex {second}" in seen(window)
     window.session.commands.undo()
     assert tags(window) == {"tagged": sorted([first, second])}
-    assert f"Hex {second:,}: tagged" in seen(window)
+    assert f"Hex {second}: tagged" in seen(window)
     assert window.session.document.redo_title == "untag"
     assert window.features["save"].save_and_wait(tmp_path / "tagged.vtk")
     kept = io.read(tmp_path / "tagged.vtk")
@@ -61,91 +65,48 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp
 
 
 @pytest.mark.slow
-def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
-    name = panel.findChild(QComboBox)
-    type_text(name.lineEdit(), "bad ones")
+def test_shown_or_listed_hexes_are_tagged_and_isolated(window, strip):
+    write_name(strip, "bad ones")
     window.session.view.change(show={"peel": 2})
-    window.refresh()
-    press(button(panel, "Shown"))
+    press(strip.shown_button)
     layers = window.session.document.now.mesh.topology.layers
     assert tags(window) == {"bad ones": np.flatnonzero(layers >= 2).tolist()}
-    type_text(name.lineEdit(), "worst")
-    press(button(panel, "Worst"))
+    write_name(strip, "worst")
+    press(strip.listed_button)
     assert tags(window)["worst"] == sorted(window.features["hex_inspector"].worst_list.hexes.tolist())
-    table = panel.findChild(QTableWidget)
-    QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
-    press(button(panel, "Isolate"))
+    press(strip.isolate_button)
     assert sorted(window.session.view.look.show.isolate.hexes) == tags(window)["worst"]
-    press(button(panel, "Remove"))
+    press(strip.remove_button)
     assert list(tags(window)) == ["bad ones"]
 
 
-@pytest.mark.slow
-def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
+def test_a_tag_is_renamed_unless_the_name_exists(window, strip, monkeypatch):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
-    window.refresh()
-    table = panel.findChild(QTableWidget)
-
-    def write(row, text):
-        QTest.mouseDClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(row, 0)).center())
-        editor = table.findChild(QLineEdit)
-        type_text(editor, text, enter=True)
-        # Qt takes what was typed in a later turn of the event loop
-        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None)
-        window.refresh()
-
-    QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(20, 10))
-    write(0, "three")
+    strip.set_name("one")
+    for name in ("two", "three"):
+        monkeypatch.setattr(QInputDialog, "getText", lambda *_, name=name: (name, True))
+        press(strip.rename_button)
     assert tags(window) == {"three": [1, 2], "two": [3]}
-    write(0, "two")
-    assert tags(window) == {"three": [1, 2], "two": [3]}
-    assert listed(panel)[0][0] == "three"
+    assert strip.name == "three"
 
 
-# The panel and the shortcut tell why a hex cannot be tagged.
-
-
-@pytest.fixture
-def tag_panel(shown):
-    return shown(TagPanel(), 500, 200)
-
-
-@pytest.fixture
-def refused(tag_panel):
-    told = heard_from(tag_panel.refused)
-    tag_panel.toggle_requested.connect(lambda name: told.append(f"tagged {name}"))
-    return told
-
-
-def said(tag_panel):
-    return [label.text() for label in tag_panel.findChildren(QLabel) if label.isVisible()]
-
-
-REFUSED_TAGS = [
-    (False, False, "bad", "No hex selected"),
-    (True, True, "bad", "during a run"),
-    (False, True, "bad", "during a run"),
-    (True, False, " ", "Enter a tag name"),
-]
-
-
-@pytest.mark.parametrize("rows", [[], [TagRow("one", 3, 0, 0.5)]])
-@pytest.mark.parametrize(("selected", "busy", "name", "word"), REFUSED_TAGS)
-def test_a_refused_tag_has_a_reason(tag_panel, refused, rows, selected, busy, name, word):
-    tag_panel.set_tags(rows)
-    tag_panel.findChild(QComboBox).setEditText(name)
-    tag_panel.set_state(selected, busy)
-    tag_panel.toggle()
-    assert len(refused) == 1
-    assert word in refused[0]
-    # The first hint also tells how to select a hex.
-    assert any(word in text or ("Select a hex" in text and not busy and name.strip()) for text in said(tag_panel))
+# The strip and the shortcut tell why a hex cannot be tagged.
 
 
 @pytest.fixture
 def host(hosted):
     return hosted(scrambled(grid(4), 0.3))
+
+
+@pytest.mark.parametrize(("name", "word"), [("bad", "No hex selected"), (" ", "Enter a tag name")])
+def test_a_refused_tag_has_a_reason(host, name, word):
+    feature = FeatureTags(host)
+    feature.strip.set_name(name)
+    feature.refresh()
+    action(feature, "tag").handle()
+    assert word in " ".join(host.messages.messages()[-1])
+    assert word in named(feature.strip, QLabel, "About the tag").text()
 
 
 def test_the_shortcut_reports_that_a_run_is_paused(host, qtbot):

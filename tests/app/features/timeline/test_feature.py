@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QSpinBox, QToolButton
+from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QToolButton
 
 from hexmend import METHODS, Outcome, Step, StoppingCriteria
 from hexmend_app.features.timeline.run_bar import RunBar
@@ -93,7 +93,7 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     each = (window.session.history.bytes) // 12
     window.session.history.limit = 4 * each
     menu = named(window.features["timeline"].panel, QToolButton, "Timeline settings").menu()
-    choices = {action.text(): action for action in menu.actions()}
+    choices = {action.text(): action for part in (menu, *menu.findChildren(QMenu)) for action in part.actions()}
     choices["128 MiB"].trigger()
     choices["30 iterations per second"].trigger()
     assert window.session.history.limit == 128 << 20
@@ -182,7 +182,11 @@ def test_a_result_that_is_undone_or_reset_is_not_called_converged(window, qtbot)
 def test_every_outcome_has_a_word(qapp, outcome):
     bar = RunBar()
     bar.set_state(Phase.FINISHED, outcome)
-    assert bar.state
+    word = bar.state
+    assert word
+    bar.set_state(Phase.FINISHED, outcome, inverted=44)
+    assert bar.state in (word, f"{word}, 44 inverted")
+    assert (bar.state != word) is (word in ("Converged", "Done"))
     bar.deleteLater()
 
 

@@ -330,11 +330,11 @@ def test_an_invalid_layout_is_ignored(docks, another, broken):
 @pytest.mark.slow
 def test_the_layout_is_stored_for_the_next_window(fresh_window, qtbot):
     window = fresh_window
-    window.show_panel("tags")
-    window.show_panel("quality")
+    window.show_panel("worst")
+    window.show_panel("look")
     window.docks.close_panel("node")
     window.close()
     kept = settings.PANELS.get()
     assert kept["closed"] == ["node"]
-    assert "Tags" in kept["fronts"]
-    assert "Quality" in kept["fronts"]
+    assert "Worst" in kept["fronts"]
+    assert "Look" in kept["fronts"]

@@ -15,7 +15,7 @@ def bars_of(window):
 
 @pytest.mark.slow
 def test_tabs_are_elided_and_not_scrolled(window, qtbot):
-    window.show_panel("runs")
+    window.show_panel("worst")
     window.resize(window.minimumSizeHint())
     turn()
     qtbot.waitUntil(lambda: window.width() < 1000 and all(bar.accessibleName() for bar in bars_of(window)))
