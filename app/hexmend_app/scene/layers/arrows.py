@@ -8,12 +8,12 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.picture.appearance import Arrows
 from hexmend_app.picture.displacement import ROUNDING, Displacement
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.coloured_polygons import set_points
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
-from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
 #: Maximum number of arrows; the longest are drawn. They take 20 ms of a fast frame in software rendering.

@@ -6,9 +6,9 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
+from hexmend_app.scene.geometry.coloured_polygons import set_points
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.layers.surface import set_points
 
 _RIM = "#11151c"
 _COLOURS = "colours"

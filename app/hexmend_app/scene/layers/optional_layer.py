@@ -13,8 +13,8 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.layer_switch import LAYERS, LayerSwitch
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.theme.palette import Role
 
 #: Legend entry in the panel: colour of its mark (None for a remark), True for a line instead of a point, text.

@@ -8,17 +8,17 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces, Skin
 from hexmend_app.scene.layers.arrows import ArrowLayer
+from hexmend_app.scene.layers.measurement_layer import MeasurementLayer
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import StructureLayers
 from hexmend_app.scene.layers.optional_layer import OptionalLayer
 from hexmend_app.scene.layers.selection.selection_layer import SelectionLayer
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.measuring.measurement_layer import MeasurementLayer
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import GHOST
 
 

@@ -9,10 +9,10 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.geometry.coloured_polygons import set_points
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges, segments, sharp_curved_edges
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
-from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.state.mesh.structure import sharp_edges
 from hexmend_app.theme.palette import SHADE, SHARP, SILHOUETTE, rgb
 

@@ -6,13 +6,13 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor
 
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.coloured_polygons import set_points
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import flat_actor
 from hexmend_app.scene.layers.invalid_outline import outlines
-from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import Role, rgb
 
 

@@ -9,8 +9,8 @@ from hexmend.quality import measure
 from hexmend_app.picture import Colours, Cut, CutStyle, LineStyle, Page, Range, Show
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.displacement import Displacement, ReferenceState
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
-from hexmend_app.scene.views.frame import Frame
 from tests.app.scene.showing import show
 from tests.core.grids import grid, scrambled
 

@@ -10,15 +10,16 @@ from hexmend import Cells, Mesh
 from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
+from hexmend_app.scene.geometry.coloured_polygons import quads
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines
 from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
 from hexmend_app.scene.layers.overlay_layers import Ghosts
-from hexmend_app.scene.layers.surface import Surface, quads
+from hexmend_app.scene.layers.surface import Surface
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
 from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
 

@@ -9,10 +9,10 @@ from hexmend_app.picture import Colours, Cut, CutStyle, Page, Plane, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.scene.colour.colouring import INVERTED, OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.geometry.coloured_polygons import colours_of
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, sharp_curved_edges
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.invalid_outline import outlines
-from hexmend_app.scene.layers.surface import colours_of
-from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.structure import sharp_edges
 from tests.app.scene.showing import MESH, frame_of
 from tests.core.curved_shell import curved_shell

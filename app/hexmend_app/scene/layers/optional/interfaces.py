@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.cutting.filters import same_mask
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import INTERFACE
 
 #: Depth offsets of faces and of edges, in VTK's units, which show them in front of those of the hexes.

@@ -8,10 +8,10 @@ import pyvista as pv
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.cut import Cut
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface, edges_of
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import OTHER_CELLS
 
 #: Corners of the faces of each cell type, also of second order, in any orientation.

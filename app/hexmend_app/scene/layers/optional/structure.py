@@ -13,10 +13,10 @@ from hexmend.quality import ElementQuality, locked_hexes
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.marks import Marks
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.mesh.structure import MeshStructure, find_structure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, departures_from_surface, node_classes
 

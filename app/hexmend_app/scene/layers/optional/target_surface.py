@@ -7,11 +7,11 @@ import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.terminal_text import printable
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import TARGET
 
 #: Depth offset of the faces, in VTK's units, which hides them where they are on the boundary.

@@ -8,9 +8,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, divided, segments
 from hexmend_app.scene.layers.flat_actor import flat_actor, label_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 
 _NODE, _ARROW = "#ffffff", "#ff8c00"
 

@@ -7,9 +7,9 @@ import pyvista as pv
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_elements import jacobian_field
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import FIELD, INVERTED, rgb
 
 #: Divisions of an edge of the hex in the grid of det J.

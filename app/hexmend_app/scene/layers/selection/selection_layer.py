@@ -11,11 +11,11 @@ from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
 from hexmend.quality import corner_qualities
 from hexmend.quality.validity import Validity, certify
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_elements import edge_middles
 from hexmend_app.scene.layers.selection.highlight import Highlight
 from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.mesh.inspection import NodeDetails
 from hexmend_app.state.node_step import NodeStep
 

@@ -8,10 +8,10 @@ from hexmend.mesh.hexahedron import EDGES
 from hexmend.smoothers import METHODS
 from hexmend_app.picture import LineStyle, Show
 from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.layers.selection.highlight import dashed
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import explain
 from hexmend_app.theme.palette import DESCENT, SEARCH
 from tests.app.scene.showing import show

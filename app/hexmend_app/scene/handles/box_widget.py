@@ -9,8 +9,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
 from hexmend_app.picture.cut_shapes import Box
-from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
 

@@ -10,9 +10,9 @@ from vtkmodules.vtkInteractionWidgets import vtkLineRepresentation, vtkLineWidge
 from vtkmodules.vtkRenderingCore import vtkPropCollection
 
 from hexmend_app.picture.cut_shapes import Sphere
-from hexmend_app.scene.cutting.handles import Handles
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
 _CORNERS = 96  # of a circle

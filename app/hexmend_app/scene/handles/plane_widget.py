@@ -7,8 +7,8 @@ from collections.abc import Callable
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.theme.palette import PLANE, PLANE_ACTIVE, PLANE_EDGE, rgb
 
 

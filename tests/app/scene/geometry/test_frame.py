@@ -9,7 +9,7 @@ from hexmend import Mesh, measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle
-from hexmend_app.scene.views.frame import Frame, same_hexes
+from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)

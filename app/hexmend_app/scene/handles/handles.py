@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
 
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 
 #: Extent of isolated hexes, as a fraction of that of the mesh, below which handles would fill the view.
 _DETAIL = 0.25
