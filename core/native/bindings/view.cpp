@@ -3,23 +3,6 @@
 
 namespace hexmend {
 
-void bind_clip_planes(nb::module_ m) {
-    m.doc() =
-        "Sides of planes on which hexes lie. A point is beyond a plane where x . normal > offset; normals (k, 3)\n"
-        "and offsets (k,) float64. The functions run on one thread, because the window's thread calls them.";
-    m.def("centre_heights", &centre_heights, "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
-          "Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.\n\n"
-          "Returns the largest extent of a hex along the normal.");
-    m.def("opened", &opened, "hexes"_a, "neighbours"_a, "eightfold"_a, "extent"_a, "offset"_a, ReleaseGil(),
-          "Faces that a plane opens: those between hexes whose centres are before it and beyond it.\n\n"
-          "eightfold (m,) float64 and extent are those of `centre_heights`; neighbours (m, 6) int32 the hex behind\n"
-          "each face, -1 for none. Returns the nodes of the faces (k, 4) and the hex before the plane (k,), int32.");
-    m.def("touched", &touched, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "answer"_a, ReleaseGil(),
-          "Planes that cross or touch each hex where the section is visible; writes answer (m * k,) bool, hex by\n"
-          "hex.\n\n"
-          "None does where the hex lies wholly beyond one of them or, with `notch`, wholly before one.");
-}
-
 void bind_occlusion(nb::module_ m) {
     m.doc() = "Ambient occlusion of polygons.";
     m.def("normals", &normals, "points"_a, "start"_a, "places"_a, "answer"_a, ReleaseGil(),
@@ -32,15 +15,6 @@ void bind_occlusion(nb::module_ m) {
           "For each direction the polygons that face it are rasterised into a height map of `side` x `side` pixels.\n"
           "Adds the light that reaches each corner to light (start[-1],) float64, and the light without occlusion to\n"
           "whole.");
-}
-
-void bind_polygons(nb::module_ m) {
-    m.doc() = "Clipping of convex polygons. It runs on one thread, because the window's thread calls it.";
-    m.def("before", &before, "points"_a, "start"_a, "places"_a, "owner"_a, "normals"_a, "offsets"_a, ReleaseGil(),
-          "Clip polygons to x . normal <= offset for all planes.\n\n"
-          "Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,),\n"
-          "places and owner (k,) int64; normals (j, 3) and offsets (j,) float64. Returns the points of the remaining\n"
-          "polygons, one after another, their start, and their owners.");
 }
 
 void bind_skin(nb::module_ m) {

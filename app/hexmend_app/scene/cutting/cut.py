@@ -74,6 +74,11 @@ def remaining_hexes(points: np.ndarray, hexes: np.ndarray, cut: Cut) -> np.ndarr
     return ~(np.all(beyond, axis=0) if cut.notch else np.any(beyond, axis=0))
 
 
+def remaining_points(points: np.ndarray, cut: Cut) -> np.ndarray:
+    """Return True for points, (k, 3), that a smooth cut leaves, (k,) bool; other cuts leave all."""
+    return ~cut.hidden(points) if cut.smooth else np.ones(len(points), dtype=bool)
+
+
 def remaining_skin(skin: pv.PolyData, cut: Cut) -> pv.PolyData:
     """Return the part of a skin that is not cut away, with its colours."""
     if not skin.GetNumberOfCells():

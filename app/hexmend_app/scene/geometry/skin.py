@@ -114,3 +114,21 @@ class Skin:
     def _kept(self, keep: np.ndarray | None) -> np.ndarray:
         """Return the mask of kept hexes, (m,) bool; raise `MeshError` if its length is wrong."""
         return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
+
+
+def edges_of_kept(mesh: Mesh, edges: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
+    """Return True for edges, (k, 2) int32, of kept hexes, (k,) bool.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    edges : (k, 2) int32
+        Nodes of edges of hexes.
+    keep : (m,) bool, optional
+        True for kept hexes; None for all.
+    """
+    mask = np.ones(len(edges), dtype=bool)
+    if keep is not None:
+        rows = mesh.topology.node_corners
+        skin.edges_kept(mesh.hexes, rows.start, rows.items, edges, keep, mask)
+    return mask

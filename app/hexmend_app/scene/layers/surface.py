@@ -26,7 +26,9 @@ vec3 outside = vec3(edist[0] - edgeEqn[0].z, edist[1] - edgeEqn[1].z, edist[2] -
 float height = dot(sines, outside) / max(max(sines.x, sines.y), max(sines.z, 1e-6));
 emix *= smoothstep(1.0, 2.8, height / lineWidth);
 vec3 face = ambientColor / max(ambientIntensity, 1e-3);
-vec3 tone = dot(face, vec3(0.30, 0.59, 0.11)) < 0.21 ? face + 0.33 : edgeColor;
+float luma = dot(face, vec3(0.30, 0.59, 0.11));
+vec3 tone = mix(face + 0.33, edgeColor * smoothstep(0.1, 0.4, luma), smoothstep(0.03, 0.08, luma));
+emix *= mix(2.0, 1.0, smoothstep(0.1, 0.4, luma));
 """
 
 

@@ -7,7 +7,6 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor
 
 from hexmend_app.scene.camera.pane import Pane
-from hexmend_app.scene.geometry.coloured_polygons import set_points
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
@@ -40,8 +39,7 @@ class TranslucentSurface:
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.poly = pv.PolyData()
-        self._faces: Faces | None = None
-        self._curved: CurvedFaces | None = None
+        self._drawn: tuple[object, ...] = ()
         self.actors: tuple[vtkActor, vtkActor] = (
             flat_actor(pane.renderer, opacity=self.face_opacity),
             flat_actor(pane.renderer, pixel_ratio, self.edge_opacity),
@@ -82,19 +80,18 @@ class TranslucentSurface:
     def set_faces(self, frame: Frame, points: np.ndarray, faces: Faces) -> None:
         """Replace the surface by faces of the hexes of a frame, curved if faces are, at points (n, 3) float64."""
         divisions = divisions_of(len(faces.quads)) if frame.curved else 1
-        self._faces, self._curved = faces, None
         if divisions == 1:
             self.set_quads(faces.places(points), faces.quads)
         else:
-            self._curved = CurvedFaces(frame.mesh, faces, divisions)
-            self._set_curved(points, self._curved)
+            self._set_curved(points, CurvedFaces(frame.mesh, faces, divisions))
 
-    def move_faces(self, points: np.ndarray) -> None:
-        """Move the faces that `set_faces` set to their positions in a mesh with points (n, 3) float64."""
-        if self._curved is None:
-            set_points(self.poly, self._faces.places(points))
-        else:
-            self._curved.move(self.poly, points)
+    def changes(self, *drawn: object) -> bool:
+        """Return True if the arrays and values that the surface is made from are others than the last time.
+
+        Masks of hexes are compared by their values, other arrays by identity.
+        """
+        last, self._drawn = self._drawn, drawn
+        return len(last) != len(drawn) or not all(map(_same, last, drawn))
 
     def _set_curved(self, points: np.ndarray, curved: CurvedFaces) -> None:
         """Replace the surface by curved faces of a mesh with points (n, 3), with lines along their edges."""
@@ -121,3 +118,9 @@ def edges_of(*faces: np.ndarray) -> np.ndarray:
     """Return the unique edges, (e, 2), of arrays of polygons, each (k, corners)."""
     ends = [np.stack([polygons, np.roll(polygons, 1, axis=1)], axis=-1).reshape(-1, 2) for polygons in faces]
     return np.unique(np.sort(np.concatenate(ends), axis=1), axis=0)
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray) and one.dtype == bool:
+        return np.array_equal(one, other)
+    return one is other or (not isinstance(one, np.ndarray) and not isinstance(other, np.ndarray) and one == other)

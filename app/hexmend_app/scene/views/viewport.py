@@ -111,47 +111,26 @@ class Viewport:
     def _draw(self, frame: Frame, new_mesh: bool) -> None:
         last, self.frame = self.frame, frame
         moved = new_mesh or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
-        pinned = not new_mesh and frame.mesh.pinned is not last.mesh.pinned
-        classed = new_mesh or frame.kinds is not last.kinds
         restyled = new_mesh or frame.look != last.look
         recoloured = moved or frame.movement is not last.movement or frame.look.colours != last.look.colours
         if new_mesh:
-            self._set_mesh()
-        self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)
-        marked = frame.look.show.marked
-        if marked != (frozenset() if new_mesh else last.look.show.marked):
-            self.overlay_layers.selection.mark(np.array(sorted(marked), dtype=np.int64))
+            if self.filters is None or not self.filters.matches(frame.mesh):
+                self.filters = Filters(frame.mesh)
+            self.mesh_layer.set_mesh(frame.mesh)
         if recoloured:
             self.colours.measure(frame)
         keep = self.kept()
-        self.overlay_layers.draw_optional(frame, keep)
         if restyled or not same_mask(keep, self._keep):
             self._keep = keep
-            self._rebuild()
-        elif recoloured or pinned or classed:
-            self._move()
-
-    def _set_mesh(self) -> None:
-        self.overlay_layers.set_mesh(self.frame)
-        mesh = self.frame.mesh
-        if self.filters is None or not self.filters.matches(mesh):
-            self.filters = Filters(mesh)
-        self.mesh_layer.set_mesh(mesh)
-
-    def _rebuild(self) -> None:
-        """Find the visible faces again."""
-        self.mesh_layer.rebuild(self.frame, self._keep, self.colours)
-        self.overlay_layers.rebuild(self.frame, self._keep, self.mesh_layer, self.filters.ghosts)
-
-    def _move(self) -> None:
-        """Update positions and colours of the same faces."""
-        self.mesh_layer.move(self.frame, self._keep, self.colours)
-        self.overlay_layers.move(self.frame, self._keep, self.mesh_layer)
+            self.mesh_layer.rebuild(frame, keep, self.colours)
+        elif recoloured:
+            self.mesh_layer.move(frame, keep, self.colours)
+        self.overlay_layers.draw(frame, keep, self.mesh_layer, self.filters.ghosts(frame))
 
     def extend_range(self, ends: tuple[float, float] | None) -> None:
         """Extend a fitted colour range to these ends, the range of all views; None fits it to this view alone."""
         if self.colours.extend_range(ends):
-            self._move()
+            self.mesh_layer.move(self.frame, self._keep, self.colours)
 
     # Shown hexes
 
@@ -244,11 +223,10 @@ class Viewport:
             return
         self._fast = self.mesh_layer.fast = fast
         self._pane.set_fast(fast)
-        self.overlay_layers.set_fast(fast)
         if self.frame is None:
             return
         if self.mesh_layer.faces.many:
-            self._rebuild()
+            self.mesh_layer.rebuild(self.frame, self._keep, self.colours)
         else:
             self.mesh_layer.outline_invalid()
 

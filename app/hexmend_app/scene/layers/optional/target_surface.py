@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
-from hexmend.mesh.mesh import Mesh, TargetSurface
+from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.frame import Frame
@@ -36,7 +36,6 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._target: TargetSurface | None = None
         offset_depth(self.actors[0].GetMapper(), polygons=_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
@@ -45,8 +44,7 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
         if target is None:
             self.hide()
             return
-        if target is not self._target:
-            self._target = target
+        if self.changes(target):
             self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), pv.PolyData())
         self.show()
 
