@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pyvista as pv
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 from hexmend.kernels import occlusion
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of, set_edge_flags, set_normals
@@ -156,3 +157,11 @@ def merge_polygons(parts: list[Polygons]) -> Polygons:
             for name in ("flags", "normals")
         ),
     )
+
+
+def surface_of(grid: pv.DataSet) -> pv.PolyData:
+    """Return the faces of the cells of a grid that no other cell shares, with their data."""
+    outside = vtkDataSetSurfaceFilter()
+    outside.SetInputData(grid)
+    outside.Update()
+    return pv.wrap(outside.GetOutput())

@@ -9,8 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 
-#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner and without rims, and paler inside
-#: the mesh, to keep the mesh visible.
+#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh.
 MANY = 1500
 
 _RIM = "#11151c"
@@ -103,7 +102,7 @@ class Marks:
             actor.GetMapper().SetInputData(self.poly)
             actor.GetProperty().SetOpacity(opacity)
         self._filled.VisibilityOn()
-        self._rims.SetVisibility(opacity == 1 and self.count <= MANY)
+        self._rims.SetVisibility(opacity == 1)
 
     def scale(self, factor: float) -> None:
         """Scale the marks by a factor from 0 to 1, for dense meshes."""

@@ -16,7 +16,7 @@ from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from hexmend_app.scene.geometry.coloured_polygons import quads
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines
-from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
+from hexmend_app.scene.layers.optional.other_cells import outer_faces
 from hexmend_app.scene.layers.overlay_layers import Ghosts
 from hexmend_app.scene.layers.surface import Surface
 from hexmend_app.scene.render.graphics import prepare_off_screen
@@ -106,21 +106,14 @@ def hybrid() -> Mesh:
     )
 
 
-def test_the_faces_of_each_cell_type_are_closed():
-    for faces in FACES.values():
-        edges = [frozenset(pair) for face in faces for pair in zip(face, (*face[1:], face[0]), strict=True)]
-        assert all(edges.count(edge) == 2 for edge in edges)
-
-
 def test_shared_faces_are_omitted():
-    triangles, quads = outer_faces(hybrid())
-    assert len(quads) == 0  # the pyramids stand on hexes
-    assert len(triangles) == 2 * 4 + 4 - 2 * 2
+    faces = outer_faces(hybrid())
+    assert faces.is_all_triangles  # the pyramids stand on hexes
+    assert faces.n_cells == 2 * 4 + 4 - 2 * 2
 
 
 def test_a_cut_removes_cells_by_their_centres():
-    triangles, _ = outer_faces(hybrid(), Cut.at((1, 0, 0), (0.7, 0, 0)))
-    assert len(triangles) == 4
+    assert outer_faces(hybrid(), Cut.at((1, 0, 0), (0.7, 0, 0))).n_cells == 4
 
 
 def test_they_are_drawn_unless_switched_off(off_screen):

@@ -45,7 +45,7 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
             self.hide()
             return
         if self.changes(target):
-            self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), pv.PolyData())
+            self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), edges=False)
         self.show()
 
     @classmethod

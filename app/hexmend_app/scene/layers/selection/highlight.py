@@ -22,7 +22,7 @@ _MIN_RADIUS = 45
 # that they are seen where the mesh hides the edges; the other lines are only just in front of the faces.
 _LINE, _RIM = "#ffffff", "#11151c"
 _STYLES = (
-    (_RIM, 3.0, 0.35, -1e6), (_LINE, 1.5, 0.5, -1e6),
+    (_RIM, 3.0, 0.5, -1e6), (_LINE, 1.5, 0.7, -1e6),
     (_RIM, 5.0, 1.0, -40.0), (_LINE, 2.0, 1.0, -40.0),
 )  # fmt: skip
 
