@@ -26,10 +26,6 @@ void bind_skin(nb::module_ m) {
           "nodes is the number of nodes of the mesh; neighbours (m, 6) int32 the hex behind each face, -1 for\n"
           "none. Returns the nodes of these faces (u,), the faces as positions among them (k, 4), and the hex of\n"
           "each (k,), all int32.");
-    m.def("faces_of", &faces_of, "hexes"_a, "neighbours"_a, "keep"_a, "chosen"_a, "hidden"_a, ReleaseGil(),
-          "Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as\n"
-          "`visible`.\n\n"
-          "Without `hidden`, only faces behind which no hex is shown.");
     m.def("edges_kept", &edges_kept, "hexes"_a, "start"_a, "corners"_a, "edges"_a, "keep"_a, "answer"_a, ReleaseGil(),
           "Edges (k, 2) int32 that a shown hex has; writes answer (k,) bool.\n\n"
           "start, corners: `Topology.node_corners`.");

@@ -15,7 +15,6 @@ using Faces = std::tuple<OwnedArray<Node>, OwnedArray<Node, 4>, OwnedArray<Node>
 
 // Visible faces of a mesh of which some hexes, keep (m,), are shown.
 Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep);
-Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden);
 void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer);
 

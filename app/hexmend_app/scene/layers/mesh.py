@@ -23,9 +23,6 @@ from hexmend_app.scene.layers.invalid_outline import InvalidOutline
 from hexmend_app.scene.layers.shaded_surface import MANY, decimated, shaded_surface
 from hexmend_app.scene.layers.surface import Surface
 
-#: Maximum number of invalid hexes that are outlined in fast frames too.
-_MAX_OUTLINED = 1000
-
 
 class MeshLayer:
     """Draws the shown hexes of a mesh.
@@ -38,8 +35,6 @@ class MeshLayer:
         Polygons of `faces`; curved faces are divided into quads.
     skin, section : Surface
         Skin that a smooth cut leaves, and sections of the cut.
-    fast : bool
-        True while frames are drawn fast, without details.
 
     Parameters
     ----------
@@ -56,7 +51,6 @@ class MeshLayer:
         self._shading = True
         self._scene: Polygons | None = None  # all drawn polygons; None before their first fine frame
         self._lit: tuple[Polygons, np.ndarray] | None = None  # polygons, and the ambient light at their corners
-        self.fast = False
         self.faces: Faces | None = None
         self._curved: CurvedFaces | None = None  # curved faces; None for flat ones
 
@@ -108,7 +102,7 @@ class MeshLayer:
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
         look = frame.look
         if look.show.shrink and not look.cut.smooth:
-            return self._skin.shrunk(look.show.shrink, keep, fine=not self.fast)
+            return self._skin.shrunk(look.show.shrink, keep)
         return self._skin.visible(keep)
 
     def _draw(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
@@ -118,10 +112,14 @@ class MeshLayer:
             surface.show_proxy(None)
             surface.divide_edges(self._divisions)
         # Back faces take a third of the frame time, but invalid hexes may turn them towards the viewer.
-        self._invalid = frame.figures.n_invalid
-        self.skin.actor.GetProperty().SetBackfaceCulling(self._invalid == 0)
+        invalid = frame.figures.n_invalid > 0
+        self.skin.actor.GetProperty().SetBackfaceCulling(not invalid)
         self._replace(frame, keep, colours)
-        self.outline_invalid()
+        for surface, outline in self._outlines:
+            if surface.shown and invalid:
+                outline.outline(surface.poly, self._divisions)
+            else:
+                outline.hide()
 
     def _replace(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         if not frame.look.cut.smooth:
@@ -133,14 +131,6 @@ class MeshLayer:
         mesh, cut, of_hexes = frame.mesh, frame.look.cut, colours.of(slice(None))
         divisions = None if self._curved is None else self._divisions
         self.section.replace(sections(mesh, keep, cut, of_hexes, divisions))
-
-    def outline_invalid(self) -> None:
-        """Outline invalid hexes; many of them only in fine frames, as outlines take half of a fast frame."""
-        for surface, outline in self._outlines:
-            if surface.shown and 0 < self._invalid <= (_MAX_OUTLINED if self.fast else self._invalid):
-                outline.outline(surface.poly, self._divisions)
-            else:
-                outline.hide()
 
     def turn(self, views: int) -> None:
         """Draw a large skin coarsely while only the camera moves; `views` is the number of views in the window."""

@@ -65,7 +65,6 @@ class Viewport:
         self._pane, self._gradient = pane, gradient
         self.frame: Frame | None = None
         self.filters = filters
-        self._fast = False
         self._keep: np.ndarray | None = None
         pane.window.SetMultiSamples(0)
         self.colours = HexColours()
@@ -161,7 +160,6 @@ class Viewport:
         """Pick at a position in pixels of the picture, from its lower left corner; None outside the mesh."""
         if self.frame is None:
             return None
-        self._set_fast(False)  # fast frames omit faces
         self.mesh_layer.show_fine()
         return self._picker.pick(x, y, self.frame.mesh)
 
@@ -198,7 +196,7 @@ class Viewport:
     def moving(self) -> None:
         """Prepare for fast frames."""
         self._pane.window.SetMultiSamples(0)
-        self._set_fast(True)
+        self._pane.set_fast(True)
 
     def turning(self, views: int = 1) -> None:
         """Prepare for fast frames in which only the camera moves; the window shows `views` views."""
@@ -209,7 +207,7 @@ class Viewport:
     def still(self) -> None:
         """Prepare for a fine frame, with antialiasing."""
         self._pane.window.SetMultiSamples(4)
-        self._set_fast(False)
+        self._pane.set_fast(False)
         self.mesh_layer.come_to_rest()
 
     def shade(self) -> None:
@@ -217,18 +215,6 @@ class Viewport:
         polygons = self.mesh_layer.needs_shading
         if polygons is not None:
             self.mesh_layer.apply_shading(polygons, occlusion.ambient_light(polygons))
-
-    def _set_fast(self, fast: bool) -> None:
-        if fast == self._fast:
-            return
-        self._fast = self.mesh_layer.fast = fast
-        self._pane.set_fast(fast)
-        if self.frame is None:
-            return
-        if self.mesh_layer.faces.many:
-            self.mesh_layer.rebuild(self.frame, self._keep, self.colours)
-        else:
-            self.mesh_layer.outline_invalid()
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:

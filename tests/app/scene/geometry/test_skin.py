@@ -52,24 +52,22 @@ def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
     assert sorted(faces.nodes.tolist()) == sorted(set(quads.ravel().tolist()))
 
 
-@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]), st.booleans())
-def test_shrunk_hexes_have_separate_nodes_nearer_to_their_mean(size, seed, whole, fine):
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]))
+def test_shrunk_hexes_have_separate_nodes_nearer_to_their_mean(size, seed, whole):
     mesh, shrink = grid(*size), 0.3
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.7
     few = keep.sum() <= whole
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", whole)
-        faces = Skin(mesh).shrunk(shrink, keep, fine)
+        faces = Skin(mesh).shrunk(shrink, keep)
     behind = mesh.topology.face_neighbours
     seen = keep[:, None] & ((behind < 0) | ~keep[behind])
     chosen = keep if few else seen.any(axis=1)
-    drawn = chosen[:, None] & (seen | fine | few)
     hexes = np.flatnonzero(chosen)
     np.testing.assert_array_equal(faces.nodes, mesh.hexes[hexes].ravel())
-    np.testing.assert_array_equal(faces.hexes, np.nonzero(drawn)[0])
-    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[:, FACES][drawn])
+    np.testing.assert_array_equal(faces.hexes, np.repeat(hexes, 6))
+    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[hexes][:, FACES].reshape(-1, 4))
     assert (hexes[faces.quads // 8] == faces.hexes[:, None]).all()
-    assert faces.many == (not few)
     x = mesh.points[mesh.hexes[hexes]]
     places = x + shrink * (x.mean(axis=1, keepdims=True) - x)
     np.testing.assert_allclose(faces.places(mesh.points), places.reshape(-1, 3), atol=1e-14)
@@ -86,14 +84,14 @@ def test_edges_of_kept_hexes_are_kept(size, seed):
     assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
 
 
-@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all"]))
 def test_a_face_is_opened_if_it_is_inside_the_mesh(size, seed, shrunk):
     mesh = grid(*size)
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.6
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 10_000 if shrunk == "all" else 0)
         one = Skin(mesh)
-        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep, shrunk == "fine")
+        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep)
     boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
     nodes = faces.nodes[faces.quads] if shrunk is None else None
     if nodes is None:  # they have nodes of their own, eight by eight

@@ -8,7 +8,7 @@ from tests.core.kernels.arguments.rows import Row, case, row
 
 
 def rows() -> Iterator[Row]:
-    n, m, f, places = case().n, case().m, case().f, case().faces.ravel()
+    n, f, places = case().n, case().f, case().faces.ravel()
     yield row("decimals.decimal_lines", empty="last", values=6, width=3, last=2)
     yield row("decimals.whole_lines", empty="values", values=6, width=3)
     polygons = {"start": 4 * np.arange(f + 1), "places": places}
@@ -16,5 +16,4 @@ def rows() -> Iterator[Row]:
     yield row("occlusion.normals", "points", answer=f, **polygons)
     yield row("occlusion.shine", "points", "directions", **light, **polygons)
     yield row("skin.visible", nodes=n)
-    yield row("skin.faces_of", chosen=m, hidden=False)
     yield row("skin.edges_kept", edges=f, answer=f)
