@@ -51,6 +51,17 @@ APP = [
     {"cli", "notebook"},
     {"__main__"},
 ]
+# The folders of the app's `scene`, by the same rule.
+SCENE = [
+    {"geometry", "camera"},
+    {"colour"},
+    {"cutting"},
+    {"layers"},
+    {"views", "handles"},
+    {"film", "page", "render"},
+]
+# Folders of one layer that may import each other.
+JOINED = {"film", "page", "render"}
 # None of the packages in this one imports another.
 SIBLINGS = "features"
 # The package itself, which exports names of all layers: in the core only these import from it.
@@ -95,10 +106,10 @@ def imported(path: Path) -> Iterator[tuple[str, int]]:
             yield from ((f"{home}.{alias.name}", node.lineno) for alias in node.names)
 
 
-def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -> list[str]:
-    """List the imports in `package` that go up or sideways, and the modules without a layer."""
+def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str], home: str = "") -> list[str]:
+    """List the imports in `package`, of the dotted name `home`, that go up or sideways, and modules without a layer."""
     level = {name: floor for floor, names in enumerate(floors) for name in names}
-    rows = []
+    home, rows = home or package.name, []
     for path, parts in sources(package):
         mine = parts[0]
         if mine == "__init__":
@@ -108,13 +119,13 @@ def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -
             continue
         for name, line in imported(path):
             where = f"{path}:{line} imports {name}"
-            root, *below = name.split(".")
-            if root == "":
+            inside, below = f"{name}.".startswith(f"{home}."), name.removeprefix(home).split(".")[1:]
+            if name.startswith("."):
                 rows.append(f"{where}: write the absolute name")
-            elif root == package.name and mine == SIBLINGS and below[:1] == [mine] and len(parts) > 1:
+            elif inside and mine == SIBLINGS and below[:1] == [mine] and len(parts) > 1:
                 if below[1:2] and below[1] != parts[1]:
                     rows.append(f"{where}, a sibling of {parts[1]}: features meet in the session")
-            elif root != package.name or below[:1] == [mine]:
+            elif not inside or below[:1] == [mine] or {mine, *below[:1]} <= JOINED:
                 continue
             elif not below or below[0] not in level:
                 if mine not in sees_the_face:
@@ -185,6 +196,7 @@ def main() -> int:
     """Print what is wrong; returns 1 if there is anything."""
     core, app = ROOT / "core/hexmend", ROOT / "app/hexmend_app"
     rows = broken(core, CORE, SEES_THE_FACE) + broken(app, APP, set()) + exits()
+    rows += broken(app / "scene", SCENE, set(), "hexmend_app.scene")
     rows += [row for folder in FORBIDDEN for row in forbidden(folder)]
     found = circle(import_graph(core))
     rows += [f"import circle: {found}"] if found else []

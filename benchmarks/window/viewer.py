@@ -18,7 +18,7 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.picture import Cut, CutStyle
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 

@@ -11,13 +11,13 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family)                                                                                     \
-    family(hex_mesh) family(line_search) family(target) family(assembly) family(closest_point)                       \
-        family(conjugate_gradients) family(sparsity) family(decimals) family(element_step) family(floor_barrier)     \
-            family(elements) family(faces) family(getme) family(incidence) family(laplacian) family(patches)         \
-                family(local) family(metrics) family(objective) family(occlusion) family(ordering) family(polygons)  \
-                    family(step_limits) family(clip_planes) family(skin) family(sliding_surface) family(surface_fit) \
-                        family(structure) family(validity) family(wavefronts) family(worst_first)
+#define HEXMEND_FAMILIES(family)                                                                                       \
+    family(hex_mesh) family(line_search) family(target) family(assembly) family(closest_point)                         \
+        family(conjugate_gradients) family(sparsity) family(decimals) family(element_step) family(floor_barrier)       \
+            family(elements) family(faces) family(getme) family(incidence) family(laplacian) family(patches)           \
+                family(local) family(metrics) family(objective) family(occlusion) family(ordering) family(step_limits) \
+                    family(skin) family(sliding_surface) family(surface_fit) family(structure) family(validity)        \
+                        family(wavefronts) family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_);

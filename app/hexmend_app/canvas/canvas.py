@@ -22,11 +22,11 @@ from hexmend_app.canvas.view_legend import ViewLegend
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import Colouring
-from hexmend_app.scene.cutting.box_widget import BoxWidget
-from hexmend_app.scene.cutting.handles import isolates_detail
-from hexmend_app.scene.cutting.plane_widget import PlaneWidget
-from hexmend_app.scene.cutting.sphere_widget import SphereWidget
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
+from hexmend_app.scene.handles.box_widget import BoxWidget
+from hexmend_app.scene.handles.handles import isolates_detail
+from hexmend_app.scene.handles.plane_widget import PlaneWidget
+from hexmend_app.scene.handles.sphere_widget import SphereWidget
 from hexmend_app.scene.views.picking import Hit
 from hexmend_app.state.mesh.inspection import NodeDetails
 from hexmend_app.state.node_step import NodeStep

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.tasks.task import Task, drop

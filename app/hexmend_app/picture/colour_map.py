@@ -10,7 +10,7 @@ from importlib import import_module
 
 import numpy as np
 
-from hexmend.registry import Registry
+from hexmend.registry import Registry, load_entry_points
 
 #: Default map, and map of changes.
 DEFAULT_MAP, CHANGE_MAP = "viridis", "BrBG"
@@ -49,10 +49,11 @@ class ColourMap:
 
 
 def load_colour_maps() -> None:
-    """Import all modules of `hexmend_app.picture.colour_maps`, which registers their maps."""
+    """Import all modules of `hexmend_app.picture.colour_maps` and entry points, which registers their maps."""
     package = import_module("hexmend_app.picture.colour_maps")
     for module in pkgutil.iter_modules(package.__path__):
         import_module(f"{package.__name__}.{module.name}")
+    load_entry_points("hexmend.colour_maps", "colour map", COLOUR_MAPS.expect)
 
 
 COLOUR_MAPS: Registry[ColourMap] = Registry("colour map", load_colour_maps)

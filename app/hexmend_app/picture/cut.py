@@ -147,7 +147,8 @@ class Cut(ConfigTable):
             return self.sphere.contains(points) == self.notch
         if not self.by_planes:
             return np.zeros(len(points), bool)
-        beyond = [side.signed_distance(points) > 0 for side in self.sides]
+        rounding = 1e-12 * np.abs(points).max(initial=0.0)  # a layer of points on a side is hidden as a whole or not
+        beyond = [side.signed_distance(points) > rounding for side in self.sides]
         return np.all(beyond, axis=0) if self.notch else np.any(beyond, axis=0)
 
     def on(self, mesh: Mesh) -> Cut:

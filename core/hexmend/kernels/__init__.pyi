@@ -1,7 +1,6 @@
 """Compiled kernels: functions of arrays and of views of arrays. Written by scripts/kernel_stubs.py."""
 
 from hexmend.kernels import assembly as assembly
-from hexmend.kernels import clip_planes as clip_planes
 from hexmend.kernels import closest_point as closest_point
 from hexmend.kernels import conjugate_gradients as conjugate_gradients
 from hexmend.kernels import decimals as decimals
@@ -20,7 +19,6 @@ from hexmend.kernels import objective as objective
 from hexmend.kernels import occlusion as occlusion
 from hexmend.kernels import ordering as ordering
 from hexmend.kernels import patches as patches
-from hexmend.kernels import polygons as polygons
 from hexmend.kernels import skin as skin
 from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity

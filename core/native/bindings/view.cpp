@@ -3,23 +3,6 @@
 
 namespace hexmend {
 
-void bind_clip_planes(nb::module_ m) {
-    m.doc() =
-        "Sides of planes on which hexes lie. A point is beyond a plane where x . normal > offset; normals (k, 3)\n"
-        "and offsets (k,) float64. The functions run on one thread, because the window's thread calls them.";
-    m.def("centre_heights", &centre_heights, "points"_a, "hexes"_a, "normal"_a, "eightfold"_a, ReleaseGil(),
-          "Eight times the heights of the centres of hexes along a normal (1, 3); writes eightfold (m,) float64.\n\n"
-          "Returns the largest extent of a hex along the normal.");
-    m.def("opened", &opened, "hexes"_a, "neighbours"_a, "eightfold"_a, "extent"_a, "offset"_a, ReleaseGil(),
-          "Faces that a plane opens: those between hexes whose centres are before it and beyond it.\n\n"
-          "eightfold (m,) float64 and extent are those of `centre_heights`; neighbours (m, 6) int32 the hex behind\n"
-          "each face, -1 for none. Returns the nodes of the faces (k, 4) and the hex before the plane (k,), int32.");
-    m.def("touched", &touched, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "answer"_a, ReleaseGil(),
-          "Planes that cross or touch each hex where the section is visible; writes answer (m * k,) bool, hex by\n"
-          "hex.\n\n"
-          "None does where the hex lies wholly beyond one of them or, with `notch`, wholly before one.");
-}
-
 void bind_occlusion(nb::module_ m) {
     m.doc() = "Ambient occlusion of polygons.";
     m.def("normals", &normals, "points"_a, "start"_a, "places"_a, "answer"_a, ReleaseGil(),
@@ -34,15 +17,6 @@ void bind_occlusion(nb::module_ m) {
           "whole.");
 }
 
-void bind_polygons(nb::module_ m) {
-    m.doc() = "Clipping of convex polygons. It runs on one thread, because the window's thread calls it.";
-    m.def("before", &before, "points"_a, "start"_a, "places"_a, "owner"_a, "normals"_a, "offsets"_a, ReleaseGil(),
-          "Clip polygons to x . normal <= offset for all planes.\n\n"
-          "Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,),\n"
-          "places and owner (k,) int64; normals (j, 3) and offsets (j,) float64. Returns the points of the remaining\n"
-          "polygons, one after another, their start, and their owners.");
-}
-
 void bind_skin(nb::module_ m) {
     m.doc() =
         "Visible faces of a mesh of which the hexes with keep (m,) bool are shown. The functions run on one\n"
@@ -52,10 +26,6 @@ void bind_skin(nb::module_ m) {
           "nodes is the number of nodes of the mesh; neighbours (m, 6) int32 the hex behind each face, -1 for\n"
           "none. Returns the nodes of these faces (u,), the faces as positions among them (k, 4), and the hex of\n"
           "each (k,), all int32.");
-    m.def("faces_of", &faces_of, "hexes"_a, "neighbours"_a, "keep"_a, "chosen"_a, "hidden"_a, ReleaseGil(),
-          "Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as\n"
-          "`visible`.\n\n"
-          "Without `hidden`, only faces behind which no hex is shown.");
     m.def("edges_kept", &edges_kept, "hexes"_a, "start"_a, "corners"_a, "edges"_a, "keep"_a, "answer"_a, ReleaseGil(),
           "Edges (k, 2) int32 that a shown hex has; writes answer (k,) bool.\n\n"
           "start, corners: `Topology.node_corners`.");

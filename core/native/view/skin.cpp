@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace hexmend {
-namespace {
-
-// True if a face is visible: no shown hex is behind it.
-bool is_visible(Node behind, HexMask keep) { return behind < 0 || !keep[behind]; }
-
-}  // namespace
 
 Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep) {
     expect(nodes >= 0, "nodes: the number of nodes is expected");
@@ -21,7 +15,8 @@ Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask ke
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!keep[h]) continue;
         for (int f = 0; f < 6; ++f) {
-            if (!is_visible(neighbours[h][f], keep)) continue;
+            Node behind = neighbours[h][f];
+            if (behind >= 0 && keep[behind]) continue;
             std::array<Node, 4> quad;
             for (int k = 0; k < 4; ++k) {
                 Node node = hexes[h][FACES[f][k]];
@@ -36,25 +31,6 @@ Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask ke
         }
     }
     return {std::move(used), std::move(quads), std::move(owners)};
-}
-
-Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden) {
-    expect(have_rows(hexes.size(), neighbours, keep, chosen),
-           "neighbours, keep and chosen: a row for each of hexes is expected");
-    OwnedArray<Node> nodes, owners;
-    OwnedArray<Node, 4> quads;
-    for (std::size_t h = 0; h < hexes.size(); ++h) {
-        if (!chosen[h]) continue;
-        Node first = static_cast<Node>(nodes.values.size());
-        nodes.values.insert(nodes.values.end(), hexes[h].begin(), hexes[h].end());
-        for (int f = 0; f < 6; ++f) {
-            if (!hidden && !is_visible(neighbours[h][f], keep)) continue;
-            auto [a, b, c, d] = FACES[f];
-            quads.values.insert(quads.values.end(), {first + a, first + b, first + c, first + d});
-            owners.values.push_back(static_cast<Node>(h));
-        }
-    }
-    return {std::move(nodes), std::move(quads), std::move(owners)};
 }
 
 void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,

@@ -18,7 +18,7 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.camera.vtk_pose import pose_of
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from tests.app.driving import LEFT, heard_from, turn
 from tests.core.grids import grid
 

@@ -4,8 +4,8 @@ from contextlib import ExitStack
 
 import pytest
 
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 
 

@@ -2,7 +2,7 @@
 
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from tests.core.grids import grid
 
 MESH = grid(4)

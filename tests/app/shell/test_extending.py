@@ -1,7 +1,6 @@
 """Examples of docs/development/extending-window.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
 
 import sys
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -23,6 +22,7 @@ from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import named, open_and_wait
 from tests.app.features.structure.layers import count
+from tests.core.test_extending import write_distribution
 from tests.examples import example
 
 EXAMPLE = example("A feature of the viewer")
@@ -183,31 +183,31 @@ BOX = "#cc0066"
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory):
-    """Register both examples from files in additional folders.
+def distribution(tmp_path_factory):
+    """Install a distribution with both examples, in a folder of the path.
 
     Tests of other modules may run between those of this one, so that the fixture is made more than once a process:
     the modules are imported anew each time, as they register their entries when they are imported.
     """
-    folder = tmp_path_factory.mktemp("additions")
+    site = tmp_path_factory.mktemp("site")
+    entries = "[hexmend.colour_maps]\nslate = made_up_map\n[hexmend.layers]\nbounding-box = made_up_layer:BoundingBox\n"
+    modules = {"made_up_map": example("A colour map"), "made_up_layer": example("A layer of the 3D view")}
+    write_distribution(site, f"{entries}none = made_up_map\n", modules)
     with pytest.MonkeyPatch.context() as patch:
-        for package, title, registry, load in (
-            ("hexmend_app.picture.colour_maps", "A colour map", colour_map.COLOUR_MAPS, colour_map.load_colour_maps),
-            ("hexmend_app.scene.layers.optional", "A layer of the 3D view", layer_switch.LAYERS,
-             optional_layer.load_layers),
-        ):  # fmt: skip
-            own = folder / package
-            own.mkdir()
-            (own / "made_up.py").write_text(example(title), encoding="utf-8")
+        patch.syspath_prepend(site)
+        for registry, load in (
+            (colour_map.COLOUR_MAPS, colour_map.load_colour_maps),
+            (layer_switch.LAYERS, optional_layer.load_layers),
+        ):
             patch.setattr(registry, "_entries", dict(registry))
-            sys.modules.pop(f"{package}.made_up", None)
-            patch.setattr(import_module(package), "__path__", [*import_module(package).__path__, str(own)])
+            for module in modules:
+                sys.modules.pop(module, None)
             load()
         yield
 
 
 @pytest.fixture
-def window(files, fresh_window):
+def window(distribution, fresh_window):
     """A window with both examples and an open mesh."""
     return fresh_window
 
@@ -230,7 +230,7 @@ def test_panel_menu_palette_and_map_box_have_them(window):
 
 
 @pytest.mark.slow
-def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
+def test_commands_and_scenes_have_them(distribution, mesh_file, tmp_path):
     words = ["render", str(mesh_file), "--size", "640x480", "-o"]
     options = ["--structure", "sharp,bounding-box", "--colour-map", "slate"]
     scene = tmp_path / "scene.toml"
@@ -240,6 +240,12 @@ def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
     images = [np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")) for name in ("options", "scene")]
     assert count(images[0], BOX) > 20
     np.testing.assert_array_equal(*images)
+
+
+def test_an_entry_point_that_registers_nothing_is_left_out(distribution):
+    assert "none" not in layer_switch.LAYERS
+    assert {"bounding-box", "sharp"} <= set(layer_switch.LAYERS)
+    assert {"slate", "viridis"} <= set(colour_map.COLOUR_MAPS)
 
 
 def test_an_unknown_layer_or_map_is_named_with_the_known_ones():

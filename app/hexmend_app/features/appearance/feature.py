@@ -12,7 +12,7 @@ from hexmend_app.picture.appearance import Arrows, Look
 from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.boundary_classifier import BoundaryClasses

@@ -12,7 +12,7 @@ from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.features.cut.cut_settings import CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ _PEEL = (
 _NO_LAYERS = "No layers to peel: every hex has a face on the boundary."
 _SHRINK = (
     "Shrink each hex towards its centre to see its shape and the hexes behind it. In meshes of more than "
-    "{count:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
+    "{count:,} hexes, only hexes with a visible face are drawn."
 )
 _CUT_SMOOTHLY = "Hexes cannot be shrunk with a smooth cut: select <i>Whole hexes</i> for the cut."
 _RINGS = (

@@ -8,7 +8,7 @@ from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import Colouring, fitted, invalid_kinds, resolve
 from hexmend_app.scene.colour.material_colours import material_names, material_values
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.state.mesh.metric_cache import metric_values
 
 

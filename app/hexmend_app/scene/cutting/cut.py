@@ -3,55 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
-from hexmend_app.scene.geometry import plane_sides
-from hexmend_app.scene.geometry.edge_flags import clipped, edge_flags, normals_of, set_edge_flags, set_normals
-from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
+from hexmend_app.scene.geometry.coloured_polygons import coloured, colours_of, hexes_of
+from hexmend_app.scene.geometry.curved_elements import evaluate_hexes
+from hexmend_app.scene.geometry.polygons import Polygons, merge_polygons
 
-#: Tolerance for nodes on a plane, as a fraction of the mesh size; larger than the rounding errors of a box cut.
-_TOLERANCE = 1e-8
+#: Tolerances as fractions of the mesh size: for points on a plane, below the distance of the sides of a box from nodes
+#: on them, and for hexes that only touch a plane, above it.
+_ON_PLANE, _TOUCHING = 1e-10, 1e-8
+
+#: Fraction of the extent of the nodes of a curved hex by which the hex may reach beyond them.
+_MARGIN = 0.5
 
 
 def sections(
-    points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, cut: Cut, colours: np.ndarray
+    mesh: Mesh, keep: np.ndarray | None, cut: Cut, colours: np.ndarray, divisions: int | None = None
 ) -> pv.PolyData:
-    """Return the sections of hexes by planes, as polygons in the colours of the hexes.
+    """Return the sections of hexes by planes, as polygons with edge flags and normals, in the colours of the hexes.
 
-    The section by each plane is clipped by the other planes. Only hexes that a plane crosses or touches visibly are
-    passed to VTK, which are a few percent. VTK treats nodes on the plane as beyond it, so if two hexes share a face in
-    the plane, the remaining hex yields the polygon. Polygons are counter-clockwise as seen from beyond the plane.
+    Only hexes that a plane crosses are passed to VTK, which are a few percent. The section by each plane is clipped by
+    the other planes. Points on a plane count as beyond it in all hexes that share them, so that a face in the plane is
+    drawn once. Polygons are counter-clockwise as seen from beyond the plane.
 
     Parameters
     ----------
-    points : (n, 3) float64
-    hexes : (m, 8) int32
+    mesh : Mesh
     keep : (m,) bool, optional
         True for shown hexes; None for all.
     cut : Cut
         A cut by planes, a box or a slab.
     colours : (m, 3) uint8
+    divisions : int, optional
+        Number of small hexes along each edge into which a hex with mid-nodes is divided; None cuts flat hexes.
     """
-    planes = cut.sides
-    touched = plane_sides.touched(points, hexes, *half_spaces(planes), cut.notch)
-    if keep is not None:
-        touched &= keep[:, None]
-    parts, owners = [], []
+    planes, parts, owners = cut.sides, [], []
     for i, plane in enumerate(planes):
-        crossing = np.flatnonzero(touched[:, i])
-        if len(crossing):
-            section, owner = _section(points, hexes, crossing, plane)
-            visible = section.before(*half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
-            parts.append(visible.facing(np.array(plane.normal)))
-            owners.append(owner[visible.owner])
-    if not sum(map(len, parts)):
+        section, hexes = _section(mesh, keep, plane, divisions)
+        visible = section.before(*half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
+        if len(visible):
+            parts.append(visible)
+            owners.append(hexes[visible.owner])
+    if not parts:
         return pv.PolyData()
     owner = np.concatenate(owners)
     return coloured(merge_polygons(parts).data(), colours[owner], owner)
@@ -60,27 +63,20 @@ def sections(
 def remaining_hexes(points: np.ndarray, hexes: np.ndarray, cut: Cut) -> np.ndarray:
     """Return True for hexes that a cut leaves at least in part, (m,) bool; nodes on its planes alone do not count.
 
-    Parameters are those of `sections`.
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    cut : Cut
     """
-    tolerance = _TOLERANCE * float(np.ptp(points, axis=0).max())
+    tolerance = _TOUCHING * float(np.ptp(points, axis=0).max())
     beyond = [(plane.signed_distance(points) > -tolerance)[hexes].all(axis=1) for plane in cut.sides]
     return ~(np.all(beyond, axis=0) if cut.notch else np.any(beyond, axis=0))
 
 
-def _section(points: np.ndarray, hexes: np.ndarray, crossing: np.ndarray, plane: Plane) -> tuple[Polygons, np.ndarray]:
-    """Return the polygons in which a plane cuts the hexes `crossing`, (j,) int, and the hex of each polygon."""
-    nodes, cells = np.unique(hexes[crossing], return_inverse=True)
-    grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells.reshape(-1, 8)}, points[nodes])
-    grid.cell_data["hex"] = crossing
-    cutter = vtkPlaneCutter()
-    cutter.SetInputData(grid)
-    cutter.SetPlane(vtk_plane_of(plane))
-    cutter.ComputeNormalsOff()
-    cutter.Update()
-    found = pv.wrap(cutter.GetOutput())
-    if not found.n_cells:
-        return Polygons.of(pv.PolyData()), crossing[:0]
-    return Polygons.of(found), np.asarray(found.cell_data["hex"])
+def remaining_points(points: np.ndarray, cut: Cut) -> np.ndarray:
+    """Return True for points, (k, 3), that a smooth cut leaves, (k,) bool; other cuts leave all."""
+    return ~cut.hidden(points) if cut.smooth else np.ones(len(points), dtype=bool)
 
 
 def remaining_skin(skin: pv.PolyData, cut: Cut) -> pv.PolyData:
@@ -96,13 +92,7 @@ def remaining_skin(skin: pv.PolyData, cut: Cut) -> pv.PolyData:
         left = merge_polygons([whole.before(*half_spaces) for half_spaces in cells])
     else:
         left = whole.before(*half_spaces(planes))
-    data = coloured(left.data(), colours_of(skin)[left.owner], hexes_of(skin)[left.owner])
-    flags = edge_flags(skin)
-    if flags is not None and len(left):
-        edges, normals = clipped(whole, flags[whole.places], normals_of(skin)[whole.places], left)
-        set_edge_flags(data, edges)
-        set_normals(data, normals)
-    return data
+    return coloured(left.data(), colours_of(skin)[left.owner], hexes_of(skin)[left.owner])
 
 
 def half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -112,8 +102,78 @@ def half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarr
     return sign * normals, sign * np.array([plane.equation[1] for plane in planes])
 
 
-def vtk_plane_of(plane: Plane) -> vtkPlane:
+def _section(mesh: Mesh, keep: np.ndarray | None, plane: Plane, divisions: int | None) -> tuple[Polygons, np.ndarray]:
+    """Return the polygons in which a plane cuts hexes, and the hex of each."""
+    tolerance = _ON_PLANE * float(np.ptp(mesh.points, axis=0).max())
+    crossing = _crossing(mesh, keep, plane, tolerance, divisions is not None)
+    at, cells = _lattice(divisions or 1)
+    if divisions is None:
+        points = mesh.points[mesh.hexes[crossing]]
+    else:
+        points = evaluate_hexes(hex_nodes(mesh.points, mesh.hexes[crossing], mesh.mid_nodes[crossing]), at)
+    distances = plane.signed_distance(points.reshape(-1, 3)).reshape(points.shape[:2])
+    on = np.abs(distances) < tolerance
+    points[on] += (tolerance - distances[on])[:, None] * np.array(plane.normal)
+    distances[on] = tolerance
+    corners = distances[:, cells]
+    which, cell = np.nonzero((corners.min(axis=2) < 0) & (corners.max(axis=2) > 0))
+    if not len(which):
+        return Polygons.of(pv.PolyData()), crossing[:0]
+    used, numbers = np.unique(which[:, None] * len(at) + cells[cell], return_inverse=True)
+    grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: numbers.reshape(-1, 8)}, points.reshape(-1, 3)[used])
+    grid.cell_data["hex"] = crossing[which]
+    grid.point_data["at"] = at[used % len(at)]
+    found = _cut_by_vtk(grid, plane)
+    section = Polygons.of(found).facing(np.array(plane.normal))
+    flags = _on_faces(section, np.asarray(found.point_data["at"]))
+    normals = np.broadcast_to(np.array(plane.normal, dtype=np.float32), (len(flags), 3))
+    return replace(section, flags=flags, normals=normals), np.asarray(found.cell_data["hex"])
+
+
+def _crossing(mesh: Mesh, keep: np.ndarray | None, plane: Plane, tolerance: float, curved: bool) -> np.ndarray:
+    """Return the shown hexes that a plane may cross, (k,) int64."""
+    distances = plane.signed_distance(mesh.points)
+    low = high = distances[mesh.hexes[:, 0]]
+    for nodes in (*mesh.hexes.T[1:], *(mesh.mid_nodes.T if curved else ())):
+        here = np.where(nodes >= 0, distances[nodes], low)
+        low, high = np.minimum(low, here), np.maximum(high, here)
+    margin = _MARGIN * (high - low) if curved else 0.0
+    crossed = (low - margin < -tolerance) & (high + margin > -tolerance)
+    return np.flatnonzero(crossed if keep is None else crossed & keep)
+
+
+def _cut_by_vtk(grid: pv.UnstructuredGrid, plane: Plane) -> pv.PolyData:
     vtk_plane = vtkPlane()
     vtk_plane.SetNormal(plane.normal)
     vtk_plane.SetOrigin(plane.point)
-    return vtk_plane
+    cutter = vtkPlaneCutter()
+    cutter.SetInputData(grid)
+    cutter.SetPlane(vtk_plane)
+    cutter.ComputeNormalsOff()
+    cutter.InterpolateAttributesOn()
+    cutter.Update()
+    return pv.wrap(cutter.GetOutput())
+
+
+def _on_faces(section: Polygons, at: np.ndarray) -> np.ndarray:
+    """Return True for corners of polygons whose edge to the next corner lies on a face of its hex, (c,) bool.
+
+    Parameters
+    ----------
+    section : Polygons
+    at : (p, 3) float64
+        Position of each point in the unit cube of its hex.
+    """
+    ends = np.stack([at, 1 - at], axis=1).reshape(-1, 6)[section.places] < 1e-9
+    return (ends & ends[section.following]).any(axis=1)
+
+
+def _lattice(divisions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the points of a lattice of the unit cube, (g, 3), and the small hexes between them, (divisions^3, 8)."""
+    if divisions == 1:
+        return UNIT_CUBE.astype(float), np.arange(8)[None]
+    side = divisions + 1
+    at = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    strides = np.array([side * side, side, 1])
+    first = at[(at < divisions).all(axis=1)] @ strides
+    return at / divisions, first[:, None] + UNIT_CUBE.astype(np.int64) @ strides

@@ -1,4 +1,4 @@
-"""Cuts by whole hexes with a sphere and with the depth of hexes below the boundary."""
+"""Centres of hexes and their depths below the boundary, for cuts by whole hexes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.boundary.closest_point import ClosestPointTrees, triangulate
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_shapes import Depth, DepthUnit, Sphere
+from hexmend_app.picture.cut_shapes import Depth, DepthUnit
 
 
 class HexDepths:
@@ -24,16 +24,12 @@ class HexDepths:
         self._centres: np.ndarray | None = None
         self._depths: np.ndarray | None = None
 
-    def in_sphere(self, points: np.ndarray, sphere: Sphere) -> np.ndarray:
-        """Return True for hexes whose centre is in a sphere, (m,) bool.
-
-        Parameters
-        ----------
-        points : (n, 3) float64
-        sphere : Sphere
-            With coordinates, not fractions.
-        """
-        return sphere.contains(self._centres_at(points))
+    def centres(self, points: np.ndarray) -> np.ndarray:
+        """Return the centres of hexes, (m, 3) float64, for node positions (n, 3) float64."""
+        if points is not self._points:
+            self._points, self._depths = points, None
+            self._centres = points[self._mesh.hexes].mean(axis=1)
+        return self._centres
 
     def in_range(self, points: np.ndarray, depth: Depth) -> np.ndarray:
         """Return True for hexes with a depth in a range, (m,) bool.
@@ -45,20 +41,10 @@ class HexDepths:
         """
         if depth.unit is DepthUnit.LAYERS:
             return depth.contains(self._mesh.topology.layers + 1)
-        centres = self._centres_at(points)
+        centres = self.centres(points)
         if self._depths is None:
             self._depths = self._distances(points, centres)
         return depth.contains(self._depths)
-
-    def forget(self) -> None:
-        """Free the centres and depths."""
-        self._points = self._centres = self._depths = None
-
-    def _centres_at(self, points: np.ndarray) -> np.ndarray:
-        if points is not self._points:
-            self._points, self._depths = points, None
-            self._centres = points[self._mesh.hexes].mean(axis=1)
-        return self._centres
 
     def _distances(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """Distances of centres, (m, 3), from the boundary in mean edge lengths, (m,) float64."""

@@ -18,14 +18,14 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.terminal_text import install_hint
 from hexmend_app.picture.appearance import Look, Since
 from hexmend_app.picture.displacement import Displacement, ReferenceState
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.film.film_frames import FilmFrame
 from hexmend_app.scene.film.film_page import FilmPage, InitialPicture
 from hexmend_app.scene.film.frame_parts import pixel_ratio_of, strip_height
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 
 #: Film formats by suffix; browsers show all of them.

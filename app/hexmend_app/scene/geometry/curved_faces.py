@@ -11,10 +11,10 @@ import pyvista as pv
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order.curved_geometry import evaluate_quads, grid, quad_nodes
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+from hexmend_app.scene.geometry.coloured_polygons import coloured, set_colours, set_points
 from hexmend_app.scene.geometry.curved_elements import quad_normals
 from hexmend_app.scene.geometry.edge_flags import NORMALS, set_edge_flags, set_normals
 from hexmend_app.scene.geometry.skin import Faces
-from hexmend_app.scene.layers.surface import coloured, colours_of, quads, set_colours, set_points
 
 #: Maximum number of quads into which the faces are divided together, as far as each face has at least four; they take
 #: 30 ms a frame in software rendering.
@@ -96,13 +96,6 @@ class CurvedFaces:
         set_points(poly, places)
         if colours is not None:
             set_colours(poly, self._repeated(colours))
-
-    def flat(self, poly: pv.PolyData) -> pv.PolyData:
-        """Return one quad for each face of the quads that `quads` built, with the colour of its first part."""
-        n = self.divisions
-        corners = np.array([0, 4 * (n - 1) + 1, 4 * n * n - 2, 4 * n * (n - 1) + 3])  # of the quads at the corners
-        points = np.asarray(poly.points).reshape(-1, 4 * n * n, 3)[:, corners].reshape(-1, 3)
-        return quads(points, np.arange(len(points)).reshape(-1, 4), colours_of(poly)[:: n * n], self._hexes)
 
     def _evaluated(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return points and normals of the corners of all quads, (4 k divisions^2, 3) each."""

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 
 from hexmend.kernels import occlusion
-from hexmend_app.scene.cutting.polygons import Polygons
+from hexmend_app.scene.geometry.polygons import Polygons
 
 #: Number of light directions. At most half of them reach a face.
 DIRECTIONS = 64

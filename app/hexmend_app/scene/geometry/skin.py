@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import skin
+from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_bools, as_points, check_node_numbers
 
-#: Maximum number of shrunk hexes that are drawn with all faces; of more hexes, only visible faces are drawn. They take
-#: 50 ms a frame in software rendering.
+#: Maximum number of shrunk hexes that are all drawn; of more hexes, only those with a visible face are. They take 50 ms
+#: a frame in software rendering.
 WHOLE = 4_000
 
 
@@ -30,15 +31,12 @@ class Faces:
     shrink : float
         Fraction by which nodes are moved towards the mean of their hex; if it is not 0, `nodes` lists the eight nodes
         of each hex.
-    many : bool
-        True if more than `WHOLE` hexes are shrunk; fast frames omit their hidden faces.
     """
 
     nodes: np.ndarray
     quads: np.ndarray
     hexes: np.ndarray
     shrink: float = 0.0
-    many: bool = False
 
     @classmethod
     def of(cls, faces: np.ndarray, hexes: np.ndarray) -> Faces:
@@ -81,17 +79,14 @@ class Skin:
         keep = self._kept(keep)
         return Faces(*skin.visible(self._n_nodes, self._hexes, self._neighbours, keep))
 
-    def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
-        """Return the faces of hexes that are drawn shrunk.
-
-        All faces of up to `WHOLE` hexes; of more hexes, all faces of hexes with a visible face or, unless `fine`,
-        visible faces only.
-        """
-        keep = self._kept(keep)
-        if np.count_nonzero(keep) <= WHOLE:
-            return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, keep, True), shrink)
-        outer = keep & ((self._neighbours < 0) | ~keep[self._neighbours]).any(axis=1)
-        return Faces(*skin.faces_of(self._hexes, self._neighbours, keep, outer, fine), shrink, True)
+    def shrunk(self, shrink: float, keep: np.ndarray | None = None) -> Faces:
+        """Return all faces of hexes that are drawn shrunk; of more than `WHOLE` hexes, of those with a visible face."""
+        keep = chosen = self._kept(keep)
+        if np.count_nonzero(keep) > WHOLE:
+            chosen = keep & ((self._neighbours < 0) | ~keep[self._neighbours]).any(axis=1)
+        numbers = np.flatnonzero(chosen).astype(np.int32)
+        quads = (FACES + 8 * np.arange(len(numbers), dtype=np.int32)[:, None, None]).reshape(-1, 4)
+        return Faces(self._hexes[numbers].ravel(), quads, np.repeat(numbers, 6), shrink)
 
     def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
         """Return True for faces inside the mesh, whose adjacent hex is hidden, (k,) bool.
@@ -114,3 +109,21 @@ class Skin:
     def _kept(self, keep: np.ndarray | None) -> np.ndarray:
         """Return the mask of kept hexes, (m,) bool; raise `MeshError` if its length is wrong."""
         return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
+
+
+def edges_of_kept(mesh: Mesh, edges: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
+    """Return True for edges, (k, 2) int32, of kept hexes, (k,) bool.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    edges : (k, 2) int32
+        Nodes of edges of hexes.
+    keep : (m,) bool, optional
+        True for kept hexes; None for all.
+    """
+    mask = np.ones(len(edges), dtype=bool)
+    if keep is not None:
+        rows = mesh.topology.node_corners
+        skin.edges_kept(mesh.hexes, rows.start, rows.items, edges, keep, mask)
+    return mask

@@ -8,12 +8,11 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.picture.appearance import Arrows
 from hexmend_app.picture.displacement import ROUNDING, Displacement
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.cutting.cut import remaining_points
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
 from hexmend_app.scene.layers.mesh import MeshLayer
-from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
-from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
 #: Maximum number of arrows; the longest are drawn. They take 20 ms of a fast frame in software rendering.
@@ -34,11 +33,6 @@ _RIM_WIDTH, _SHAFT_WIDTH = 3.0, 1.75
 #: Opacity of arrows that are hidden by the mesh.
 _HIDDEN_OPACITY = 0.3
 
-# Points of an arrow: start, neck, four corners of the head around the neck, tip.
-_POINTS = 7
-_SHAFT = np.array([[2, 0, 1]])
-_FACES = np.array([[3, 6, 2, 3], [3, 6, 3, 4], [3, 6, 4, 5], [3, 6, 5, 2]])
-
 
 class ArrowLayer:
     """Draws dark arrows with a light rim, which are visible on every colour.
@@ -47,8 +41,7 @@ class ArrowLayer:
     ----------
     drawn, moved : int
         Number of drawn arrows, and of nodes that have moved.
-    lines : pv.PolyData
-        Shafts; its points are those of `arrows`, seven per arrow.
+    shafts, heads : pv.PolyData
 
     Parameters
     ----------
@@ -58,19 +51,18 @@ class ArrowLayer:
     """
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
-        self._inside = pane.overlay()
-        self.lines = pv.PolyData()
+        self.renderer = pane.overlay()  # of the arrows inside the mesh
+        self.shafts, self.heads = pv.PolyData(), pv.PolyData()
         self._front_actors = _actors(pane.renderer, pixel_ratio)
-        self._inside_actors = _actors(self._inside, pixel_ratio)
-        self._pixel_ratio = pixel_ratio
+        self._inside_actors = _actors(self.renderer, pixel_ratio)
         self.drawn = self.moved = 0
-        self._through = self._fast = False
         self.hide()
 
-    @property
-    def layer(self) -> vtkRenderer:
-        """Renderer of the arrows inside the mesh."""
-        return self._inside
+    def hide(self) -> None:
+        """Hide all arrows."""
+        self.drawn = self.moved = 0
+        for actor in (*self._front_actors, *self._inside_actors):
+            actor.VisibilityOff()
 
     def draw(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer) -> None:
         """Draw the arrows selected by the look of a frame.
@@ -93,28 +85,10 @@ class ArrowLayer:
             nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
         else:
             nodes = mesh_layer.visible_nodes(mesh)
-        self.show(frame.movement, nodes & points_kept_by_cut(frame.look, mesh.points), traces.factor, through)
+        self._show(frame.movement, nodes & remaining_points(mesh.points, frame.look.cut), traces.factor, through)
 
-    def hide(self) -> None:
-        """Hide all arrows."""
-        self.drawn = self.moved = 0
-        self._inside.DrawOff()
-        for actor in self._front_actors:
-            actor.VisibilityOff()
-
-    def show(self, movement: Displacement, nodes: np.ndarray, factor: float, through: bool) -> None:
-        """Draw arrows of nodes, the longest if there are too many.
-
-        Parameters
-        ----------
-        movement : Displacement
-        nodes : (n,) bool
-            Nodes that may have an arrow.
-        factor : float
-            Scale of the arrow lengths.
-        through : bool
-            Draw hidden arrows as opaque as visible ones.
-        """
+    def _show(self, movement: Displacement, nodes: np.ndarray, factor: float, through: bool) -> None:
+        """Draw arrows of nodes, (n,) bool, the longest if there are too many; `through` draws hidden ones opaque."""
         distances = movement.distances
         chosen = np.flatnonzero(nodes & (distances > ROUNDING * movement.unit))
         moved = chosen.size
@@ -124,43 +98,24 @@ class ArrowLayer:
         if moved > MAX_ARROWS:
             chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MAX_ARROWS)[moved - MAX_ARROWS :]])
         start = movement.before.points[chosen]
-        vertices = arrows(start, factor * (movement.points[chosen] - start), _MAX_HEAD * movement.unit)
-        if chosen.size == self.drawn:
-            set_points(self.lines, vertices)
-        else:
-            self.lines, heads = _polys(vertices)
-            for rim, shaft, head in (self._front_actors, self._inside_actors):
-                rim.GetMapper().SetInputData(self.lines)
-                shaft.GetMapper().SetInputData(self.lines)
-                head.GetMapper().SetInputData(heads)
+        self.shafts, self.heads = arrows(start, factor * (movement.points[chosen] - start), _MAX_HEAD * movement.unit)
         self.drawn, self.moved = chosen.size, moved
-        self._through = through
-        self._update_style()
-
-    def set_fast(self, fast: bool) -> None:
-        """Omit rims and hidden arrows, which take two thirds of the time, or draw everything again."""
-        self._fast = fast
-        if self.drawn:
-            self._update_style()
-
-    def _update_style(self) -> None:
-        through, fine = self._through, not self._fast
-        rimmed = fine and self.drawn <= _MAX_RIMMED
-        rim, shaft, head = self._front_actors
-        for actor in (shaft, head):
-            actor.SetVisibility(not through)
-        rim.SetVisibility(not through and rimmed)
-        self._inside.SetDraw(through or fine)
-        for actor in self._inside_actors:
-            actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN_OPACITY)
-        self._inside_actors[0].SetVisibility(through and rimmed)  # rims would cover pale arrows
-        for _, shaft, head in (self._front_actors, self._inside_actors):
-            shaft.GetProperty().SetLineWidth(self._pixel_ratio * (_SHAFT_WIDTH if fine else 1.0))
+        rimmed = self.drawn <= _MAX_RIMMED
+        for actors, shown, opaque in (
+            (self._front_actors, not through, True),
+            (self._inside_actors, True, through),  # rims would cover pale arrows
+        ):
+            rim, shaft, head = actors
+            for actor, data in ((rim, self.shafts), (shaft, self.shafts), (head, self.heads)):
+                actor.GetMapper().SetInputData(data)
+                actor.SetVisibility(shown)
+                actor.GetProperty().SetOpacity(1.0 if opaque else _HIDDEN_OPACITY)
+            rim.SetVisibility(shown and opaque and rimmed)
             head.GetProperty().SetEdgeVisibility(rimmed)
 
 
-def arrows(start: np.ndarray, path: np.ndarray, longest: float) -> np.ndarray:
-    """Return the points of arrows, (7 k, 3): start, neck, four corners of the head, tip of each.
+def arrows(start: np.ndarray, path: np.ndarray, longest: float) -> tuple[pv.PolyData, pv.PolyData]:
+    """Build the shafts and the heads of arrows.
 
     Parameters
     ----------
@@ -170,44 +125,21 @@ def arrows(start: np.ndarray, path: np.ndarray, longest: float) -> np.ndarray:
     longest : float
         Maximum length of a head.
     """
-    length = np.sqrt(np.square(path).sum(axis=1))[:, None]
-    forward = path / length
-    sideways = np.cross(forward, np.eye(3)[np.abs(forward).argmin(axis=1)])
-    sideways /= np.sqrt(np.square(sideways).sum(axis=1))[:, None]
-    upwards = np.cross(forward, sideways)
-    head = np.minimum(_HEAD * length, longest)
-    tip = start + path
-    neck = tip - head * forward
-    half_width = _HALF_WIDTH * head
-    corners = [
-        neck + half_width * sideways,
-        neck + half_width * upwards,
-        neck - half_width * sideways,
-        neck - half_width * upwards,
-    ]
-    return np.stack([start, neck, *corners, tip], axis=1).reshape(-1, 3)
-
-
-def _polys(vertices: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
-    """Build shafts and heads, which share their points (7 k, 3)."""
-    first = np.arange(0, len(vertices), _POINTS)[:, None, None]
-    lines, faces = ((part[None] + first * (np.arange(part.shape[1]) > 0)).ravel() for part in (_SHAFT, _FACES))
-    shafts, heads = pv.PolyData(vertices, lines=lines), pv.PolyData(vertices, faces=faces)
-    heads.SetPoints(shafts.GetPoints())
-    return shafts, heads
+    length = np.sqrt(np.square(path).sum(axis=1))
+    heads = pv.PolyData(start + path)
+    heads["length"], heads["path"] = np.minimum(_HEAD * length, longest), path
+    necks = start + path * (1 - heads["length"] / length)[:, None]
+    cone = pv.Cone(center=(-0.5, 0, 0), height=1.0, radius=_HALF_WIDTH, resolution=4, capping=False)
+    shafts = pv.line_segments_from_points(np.stack([start, necks], axis=1).reshape(-1, 3))
+    return shafts, heads.glyph(orient="path", scale="length", geom=cone)
 
 
 def _actors(renderer: vtkRenderer, pixel_ratio: float) -> tuple[vtkActor, vtkActor, vtkActor]:
     """Make the actors of rims, shafts, and heads."""
     styles = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
-    rim, shaft, head = (_actor(renderer, colour, pixel_ratio * width, depth) for colour, width, depth in styles)
+    rim, shaft, head = (flat_actor(renderer, pixel_ratio * width, colour=colour) for colour, width, _ in styles)
+    for actor, (_, _, depth) in zip((rim, shaft, head), styles, strict=True):
+        offset_depth(actor.GetMapper(), lines=depth, polygons=depth, slope=-1.0)
     head.GetProperty().SetEdgeColor(rgb(_RIM))
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head
-
-
-def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vtkActor:
-    actor = flat_actor(renderer, width, colour=colour)
-    offset_depth(actor.GetMapper(), lines=depth, polygons=depth, slope=-1.0)
-    actor.VisibilityOn()
-    return actor

@@ -7,7 +7,7 @@ from vtkmodules.vtkInteractionWidgets import vtkOrientationMarkerWidget
 from vtkmodules.vtkRenderingAnnotation import vtkAxesActor
 from vtkmodules.vtkRenderingCore import vtkTextProperty
 
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.theme.palette import AXES, rgb
 
 #: Position of the axes in a window with a single view: x low, y low, x high, y high as fractions of the window.

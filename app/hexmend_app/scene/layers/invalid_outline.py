@@ -9,9 +9,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colour.colouring import are_invalid
+from hexmend_app.scene.geometry.coloured_polygons import colours_of
 from hexmend_app.scene.geometry.edge_flags import edge_flags
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.layers.surface import colours_of
 
 # Colour, width in pixels, and depth offset in VTK's units: the dark rim, and the light line in front of it. The light
 # line contrasts with the dark end of every colour map and with magenta, the rim with the light end. The rim is a dark

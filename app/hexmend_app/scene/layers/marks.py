@@ -8,7 +8,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.layers.surface import set_points
+
+#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh.
+MANY = 1500
 
 _RIM = "#11151c"
 _COLOURS = "colours"
@@ -19,16 +21,12 @@ _POINT_DEPTHS = (-60.0, -120.0)
 
 
 class Marks:
-    """Marks of one kind in a renderer, which move with the nodes.
+    """Marks of one kind in a renderer.
 
     Attributes
     ----------
     poly : pv.PolyData
         Lines or points, each with a colour.
-    nodes : (k,) int
-        Node of the mesh at each point of `poly`; empty for curved lines.
-    filled : vtkActor
-        Actor of the marks without their rims.
 
     Parameters
     ----------
@@ -44,17 +42,12 @@ class Marks:
     def __init__(self, renderer: vtkRenderer, size: float, rim: float, pixel_ratio: float = 1.0):
         self._size, self._rim_width, self._pixel_ratio = size, rim, pixel_ratio
         self.poly = pv.PolyData()
-        self.nodes = np.empty(0, np.int64)
-        self._curves: CurvedEdges | None = None
-        self._rims = self._actor(renderer, coloured=False)
-        self.filled = self._actor(renderer, coloured=True)
+        self._rims, self._filled = (self._actor(renderer, coloured) for coloured in (False, True))
         self.scale(1.0)
-        self.hide()
 
     def _actor(self, renderer: vtkRenderer, coloured: bool) -> vtkActor:
         actor = flat_actor(renderer, colour=_RIM)
         mapper = actor.GetMapper()
-        mapper.SetInputData(self.poly)
         mapper.SetScalarVisibility(coloured)
         mapper.SetScalarModeToUseCellFieldData()
         mapper.SelectColorArray(_COLOURS)
@@ -65,7 +58,7 @@ class Marks:
     @property
     def shown(self) -> bool:
         """True while marks are drawn."""
-        return bool(self.filled.GetVisibility())
+        return bool(self._filled.GetVisibility())
 
     @property
     def count(self) -> int:
@@ -90,47 +83,35 @@ class Marks:
         points : (n, 3) float64
             Positions of all nodes.
         opacity : float
+            Translucent marks have no rims.
         curves : CurvedEdges, optional
             The edges of `cells`, to draw them curved.
         """
         if not len(cells):
             self.hide()
             return
-        self._curves = curves
-        self.nodes, index = np.unique(cells, return_inverse=True)
-        index = index.reshape(cells.shape)
-        if curves is not None:
-            self.nodes, index = np.empty(0, np.int64), curves.chains
+        if curves is None:
+            nodes, index = np.unique(cells, return_inverse=True)
+            places, index = points[nodes], index.reshape(cells.shape)
+        else:
+            places, index = curves.places(points), curves.chains
         rows = pv.CellArray.from_regular_cells(index)  # type: ignore[arg-type]
-        self.poly = pv.PolyData(self._places(points), **{"lines" if index.shape[1] > 1 else "verts": rows})
+        self.poly = pv.PolyData(places, **{"lines" if index.shape[1] > 1 else "verts": rows})
         self.poly.cell_data[_COLOURS] = colours
-        for actor in (self._rims, self.filled):
+        for actor in (self._rims, self._filled):
             actor.GetMapper().SetInputData(self.poly)
             actor.GetProperty().SetOpacity(opacity)
-        self.filled.VisibilityOn()
-        self.show_rims(True)
-
-    def show_rims(self, on: bool) -> None:
-        """Show or hide the rims; translucent marks have none."""
-        self._rims.SetVisibility(on and self.shown and self.filled.GetProperty().GetOpacity() == 1)
-
-    def move(self, points: np.ndarray) -> None:
-        """Move the marks to the positions of the nodes, (n, 3) float64."""
-        if self.shown:
-            set_points(self.poly, self._places(points))
-
-    def _places(self, points: np.ndarray) -> np.ndarray:
-        """Return the drawn points, (k, 3), from the positions of the nodes."""
-        return points[self.nodes] if self._curves is None else self._curves.places(points)
+        self._filled.VisibilityOn()
+        self._rims.SetVisibility(opacity == 1)
 
     def scale(self, factor: float) -> None:
         """Scale the marks by a factor from 0 to 1, for dense meshes."""
         size, rim = max(1.0, factor * self._size), max(0.5, factor * self._rim_width)
-        for actor, width in ((self.filled, size), (self._rims, size + 2 * rim)):
+        for actor, width in ((self._filled, size), (self._rims, size + 2 * rim)):
             actor.GetProperty().SetLineWidth(self._pixel_ratio * width)
             actor.GetProperty().SetPointSize(self._pixel_ratio * width)
 
     def hide(self) -> None:
         """Hide the marks."""
-        self.filled.VisibilityOff()
+        self._filled.VisibilityOff()
         self._rims.VisibilityOff()

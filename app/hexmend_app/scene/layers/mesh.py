@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.cut_shapes import Plane
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.hex_colours import HexColours
-from hexmend_app.scene.cutting.coarse_section import coarse_section
-from hexmend_app.scene.cutting.curved_sections import curved_sections
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
-from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
+from hexmend_app.scene.geometry.coloured_polygons import (
+    hexes_of,
+    quads,
+    set_colours,
+    set_points,
+)
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
-from hexmend_app.scene.geometry.shaded_surface import MANY, decimated, shaded, shaded_surface
+from hexmend_app.scene.geometry.frame import Frame
+from hexmend_app.scene.geometry.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry.skin import Faces, Skin
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline
-from hexmend_app.scene.layers.surface import Surface, colours_of, hexes_of, quads, recoloured, set_colours, set_points
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
-
-#: Maximum number of invalid hexes that are outlined in fast frames too.
-_MAX_OUTLINED = 1000
+from hexmend_app.scene.layers.shaded_surface import MANY, decimated, shaded_surface
+from hexmend_app.scene.layers.surface import Surface
 
 
 class MeshLayer:
@@ -37,8 +35,6 @@ class MeshLayer:
         Polygons of `faces`; curved faces are divided into quads.
     skin, section : Surface
         Skin that a smooth cut leaves, and sections of the cut.
-    fast : bool
-        True while frames are drawn fast, without details.
 
     Parameters
     ----------
@@ -51,18 +47,16 @@ class MeshLayer:
         self.skin, self.section = Surface(pane.renderer, pixel_ratio), Surface(pane.renderer, pixel_ratio)
         self._outlines = [(s, InvalidOutline(pane.renderer, pixel_ratio)) for s in (self.skin, self.section)]
         self._coarse: pv.PolyData | None = None  # decimated skin, drawn while the camera moves
-        self._body: tuple[object, object, pv.PolyData] | None = None  # points, colouring, decimated skin without a cut
         self._steady = False  # True if only the camera has moved since the last fine frame
         self._shading = True
         self._scene: Polygons | None = None  # all drawn polygons; None before their first fine frame
         self._lit: tuple[Polygons, np.ndarray] | None = None  # polygons, and the ambient light at their corners
-        self.fast = False
         self.faces: Faces | None = None
         self._curved: CurvedFaces | None = None  # curved faces; None for flat ones
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Replace the mesh; `rebuild` draws it."""
-        self._skin, self._body = Skin(mesh), None
+        self._skin = Skin(mesh)
 
     def hide(self) -> None:
         """Hide the hexes."""
@@ -105,47 +99,10 @@ class MeshLayer:
             self._curved.move(self.whole, points, face_colours)
         self._draw(frame, keep, colours)
 
-    def draw_coarse_cut(
-        self, frame: Frame, planes: Sequence[Plane], opened: tuple[np.ndarray, np.ndarray], colours: HexColours
-    ) -> None:
-        """Draw the skin coarsely, cut by planes, and the faces that the cut opens; `rebuild` draws the rest again.
-
-        Parameters
-        ----------
-        frame : Frame
-        planes : sequence of Plane
-        opened : tuple of array
-            Nodes (k, 4) of these faces, and their hexes (k,).
-        colours : HexColours
-        """
-        points = frame.mesh.points
-        if self._body is None or self._body[0] is not points or self._body[1] is not colours.colouring:
-            faces = self._skin.visible()
-            hidden = np.zeros(len(faces.quads), dtype=bool)
-            skin = quads(faces.places(points), faces.quads, colours.of(faces.hexes, hidden), faces.hexes)
-            self._diagonal = float(np.linalg.norm(np.ptp(skin.points, axis=0)))
-            self._body = points, colours.colouring, decimated(skin) if len(faces.quads) > MANY else skin
-        self._steady, self._coarse, self._scene = False, None, None
-        for _, outline in self._outlines:
-            outline.hide()
-        self.skin.replace(self._body[2])
-        self.skin.show_proxy(self._body[2])
-        self.skin.clip(planes)
-        nodes, hexes = opened
-        coarse = len(hexes) > MANY
-        if coarse:
-            corners, hexes = coarse_section(points, nodes, hexes, planes, self._diagonal)
-        else:
-            corners = points[nodes.ravel()]
-        places = np.arange(len(corners), dtype=np.int32).reshape(-1, 4)
-        section = quads(corners, places, colours.of(hexes), hexes)
-        self.section.replace(section)
-        self.section.show_proxy(section if coarse else None)  # edges of squares are none of the mesh
-
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
         look = frame.look
         if look.show.shrink and not look.cut.smooth:
-            return self._skin.shrunk(look.show.shrink, keep, fine=not self.fast)
+            return self._skin.shrunk(look.show.shrink, keep)
         return self._skin.visible(keep)
 
     def _draw(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
@@ -153,13 +110,16 @@ class MeshLayer:
         self._shading = frame.look.page.shading
         for surface in (self.skin, self.section):
             surface.show_proxy(None)
-            surface.clip(())
             surface.divide_edges(self._divisions)
         # Back faces take a third of the frame time, but invalid hexes may turn them towards the viewer.
-        self._invalid = frame.figures.n_invalid
-        self.skin.actor.GetProperty().SetBackfaceCulling(self._invalid == 0)
+        invalid = frame.figures.n_invalid > 0
+        self.skin.actor.GetProperty().SetBackfaceCulling(not invalid)
         self._replace(frame, keep, colours)
-        self.outline_invalid()
+        for surface, outline in self._outlines:
+            if surface.shown and invalid:
+                outline.outline(surface.poly, self._divisions)
+            else:
+                outline.hide()
 
     def _replace(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         if not frame.look.cut.smooth:
@@ -169,37 +129,16 @@ class MeshLayer:
             return
         self.skin.replace(remaining_skin(self.whole, frame.look.cut))
         mesh, cut, of_hexes = frame.mesh, frame.look.cut, colours.of(slice(None))
-        if self._curved is None:
-            self.section.replace(sections(mesh.points, mesh.hexes, keep, cut, of_hexes))
-        else:
-            self.section.replace(curved_sections(mesh, keep, cut, of_hexes, self._divisions))
-
-    def outline_invalid(self) -> None:
-        """Outline invalid hexes; many of them only in fine frames, as outlines take half of a fast frame."""
-        for surface, outline in self._outlines:
-            if surface.shown and 0 < self._invalid <= (_MAX_OUTLINED if self.fast else self._invalid):
-                outline.outline(surface.poly, self._divisions)
-            else:
-                outline.hide()
+        divisions = None if self._curved is None else self._divisions
+        self.section.replace(sections(mesh, keep, cut, of_hexes, divisions))
 
     def turn(self, views: int) -> None:
         """Draw a large skin coarsely while only the camera moves; `views` is the number of views in the window."""
-        faces = len(self.faces.quads) * views if self.faces is not None else 0
-        if not self._steady or self.skin.poly is not self.whole or faces * self._divisions**2 <= MANY:
+        if not self._steady or self.skin.poly is not self.whole or self.whole.n_cells * views <= MANY:
             return
         if self._coarse is None:
-            lit = self._with_mean_light()
-            self._coarse = decimated(lit) if faces > MANY else self._curved.flat(lit)
-        self.skin.show_proxy(self._coarse, edges=faces <= MANY)
-        self.skin.divide_edges(1)
-
-    def _with_mean_light(self) -> pv.PolyData:
-        """Return the polygons, each in its colour under the mean light at its corners, if that is known."""
-        light = self.light
-        if light is None:
-            return self.whole
-        face_light = light[: self.skin.corners].reshape(-1, 4).mean(axis=1)
-        return recoloured(self.whole, shaded(colours_of(self.whole), face_light))
+            self._coarse = decimated(self.whole)
+        self.skin.show_proxy(self._coarse)
 
     @property
     def _divisions(self) -> int:

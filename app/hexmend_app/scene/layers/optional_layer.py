@@ -12,9 +12,10 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.registry import load_entry_points
 from hexmend_app.picture.layer_switch import LAYERS, LayerSwitch
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.theme.palette import Role
 
 #: Legend entry in the panel: colour of its mark (None for a remark), True for a line instead of a point, text.
@@ -82,7 +83,8 @@ def layer(name: str, **texts: Any) -> Callable[[type[OptionalLayer]], type[Optio
 
 
 def load_layers() -> None:
-    """Import all modules of `hexmend_app.scene.layers.optional`, which registers their layers."""
+    """Import all modules of `hexmend_app.scene.layers.optional` and entry points, which registers their layers."""
     package = import_module("hexmend_app.scene.layers.optional")
     for module in pkgutil.iter_modules(package.__path__):
         import_module(f"{package.__name__}.{module.name}")
+    load_entry_points("hexmend.layers", "layer", LAYERS.expect)

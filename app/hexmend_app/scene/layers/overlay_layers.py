@@ -8,17 +8,17 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces, Skin
 from hexmend_app.scene.layers.arrows import ArrowLayer
+from hexmend_app.scene.layers.measurement_layer import MeasurementLayer
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.optional.structure import StructureLayers
 from hexmend_app.scene.layers.optional_layer import OptionalLayer
 from hexmend_app.scene.layers.selection.selection_layer import SelectionLayer
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.measuring.measurement_layer import MeasurementLayer
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import GHOST
 
 
@@ -43,8 +43,8 @@ class OverlayLayers:
     Attributes
     ----------
     ghosts : Ghosts
-    outline : Silhouette or None
-        Outline of the whole mesh while part of it is hidden; None before a mesh is set.
+    outline : Silhouette
+        Outline of the whole mesh while part of it is hidden.
     structure : StructureLayers
     arrows : ArrowLayer
     selection : SelectionLayer
@@ -55,15 +55,14 @@ class OverlayLayers:
     """
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0, on_failure: Callable[[Exception], object] = raise_error):
-        self._pane, self._pixel_ratio = pane, pixel_ratio
         self._on_failure = on_failure
-        self._dark = False
+        self._frame: Frame | None = None
         self._failed: set[str] = set()
         self.optional: dict[str, OptionalLayer] = {
             switch.name: switch.drawn_by(pane, pixel_ratio) for switch in ordered_layers() if switch.drawn_by
         }
         self.ghosts = Ghosts(pane, pixel_ratio)  # translucent actors are drawn in the order of their creation
-        self.outline: Silhouette | None = None
+        self.outline = Silhouette(pane, pixel_ratio)
         self.structure = StructureLayers(pane, pixel_ratio)
         self.arrows = ArrowLayer(pane, pixel_ratio)
         self.selection = SelectionLayer(pane, pixel_ratio)
@@ -73,7 +72,7 @@ class OverlayLayers:
     def renderers(self) -> tuple[vtkRenderer, ...]:
         """Renderers in front of the renderer of the hexes, from back to front."""
         optional = [renderer for layer in self.optional.values() for renderer in layer.renderers]
-        own = self.structure.layer, self.arrows.layer, *self.selection.layers
+        own = self.structure.renderer, self.arrows.renderer, *self.selection.layers
         return *own, *optional, *self.measurement.layers
 
     @property
@@ -83,50 +82,11 @@ class OverlayLayers:
 
     def set_dark(self, dark: bool) -> None:
         """Use the colours of the dark or of the light theme."""
-        self._dark = dark
-        for layer in (self.selection, self.ghosts, *self.optional.values(), self.outline):
-            if layer is not None:
-                layer.set_dark(dark)  # type: ignore[attr-defined]
+        for layer in (self.selection, self.ghosts, self.outline, *self.optional.values()):
+            layer.set_dark(dark)  # type: ignore[attr-defined]
 
-    def set_fast(self, fast: bool) -> None:
-        """Omit details in fast frames, or draw everything again."""
-        self._attempt("structure", self.structure.set_fast, fast)
-        self._attempt("arrows", self.arrows.set_fast, fast)
-
-    def set_mesh(self, frame: Frame) -> None:
-        """Replace the mesh; nothing of the previous mesh remains drawn."""
-        self.hide()
-        self._failed.clear()
-        self._attempt("outline", self._outline_mesh, frame)
-        self._attempt("structure", self.structure.set_mesh, frame.mesh)
-        self._attempt("selection", self.selection.set_mesh, frame.mesh)
-
-    def _outline_mesh(self, frame: Frame) -> None:
-        self.outline = Silhouette(self._pane.renderer, frame.mesh, self._pixel_ratio, frame.curved)
-        self.outline.set_dark(self._dark)
-
-    def update(self, frame: Frame, moved: bool, pinned: bool, classed: bool) -> None:
-        """Update positions, pinned nodes or classes of boundary nodes of the same mesh, if they have changed."""
-        if moved:
-            self._attempt("selection", self.selection.move, frame.mesh)
-            self._attempt("structure", self.structure.set_positions, frame.mesh)
-        if pinned:
-            self._attempt("structure", self.structure.set_pins, frame.mesh.pinned)
-        if classed or pinned:
-            self._attempt("structure", self.structure.set_kinds, frame.kinds)
-
-    def draw_optional(self, frame: Frame, keep: np.ndarray | None) -> None:
-        """Draw the optional layers that are on; parameters are those of `rebuild`."""
-        for name, layer in self.optional.items():
-            if frame.look.structure.is_on(name):
-                self._attempt(name, layer.draw, frame, keep)
-            else:
-                layer.hide()
-
-    def rebuild(
-        self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer, ghosts: Callable[[Frame], np.ndarray | None]
-    ) -> None:
-        """Draw the layers that depend on the shown hexes.
+    def draw(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer, ghosts: np.ndarray | None) -> None:
+        """Draw all layers.
 
         Parameters
         ----------
@@ -135,36 +95,29 @@ class OverlayLayers:
             True for hexes shown whole or in part; None for all.
         mesh_layer : MeshLayer
             Layer of the drawn hexes.
-        ghosts : callable
-            Returns the hexes that are drawn as ghosts, (m,) bool, or None.
+        ghosts : (m,) bool, optional
+            True for hexes that are drawn as ghosts; None for none.
         """
-        look, points = frame.look, frame.mesh.points
-        if self.outline is not None and self.outline.curved != frame.curved:
-            self.outline.close()
-            self._attempt("outline", self._outline_mesh, frame)
-        self._attempt("selection", self.selection.set_curved, frame.curved)
-        self._attempt("ghosts", lambda: self.ghosts.draw(frame, ghosts(frame), keep))
+        if not frame.is_of(self._frame):
+            self.hide()
+        self._frame = frame
+        for name, layer in self.optional.items():
+            if frame.look.structure.is_on(name):
+                self._attempt(name, layer.draw, frame, keep)
+            else:
+                layer.hide()
+        self._attempt("selection", self.selection.draw, frame)
+        self._attempt("ghosts", self.ghosts.draw, frame, ghosts, keep)
         self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
-        if self.outline is not None:
-            self._attempt("outline", self.outline.show, look, points, keep)
-        self._attempt("measurement", self.measurement.draw, look.measurement)
-        self._attempt("structure", self.structure.rebuild, look, points, frame.figures, mesh_layer.faces, keep)
-
-    def move(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer) -> None:
-        """Draw the same layers at the current positions of the nodes; parameters are those of `rebuild`."""
-        points = frame.mesh.points
-        self._attempt("ghosts", self.ghosts.move, frame)
-        self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
-        if self.outline is not None:
-            self._attempt("outline", self.outline.move, points)
-        self._attempt("structure", self.structure.move, points, frame.figures)
+        self._attempt("outline", self.outline.draw, frame, keep)
+        self._attempt("measurement", self.measurement.draw, frame.look.measurement)
+        self._attempt("structure", self.structure.draw, frame, keep, mesh_layer.faces)
 
     def hide(self) -> None:
-        """Hide all layers."""
-        if self.outline is not None:
-            self.outline.close()
-            self.outline = None
-        own = self.ghosts, self.structure, self.arrows, self.selection, self.measurement
+        """Hide all layers, also those that failed."""
+        self._frame = None
+        self._failed.clear()
+        own = self.ghosts, self.outline, self.structure, self.arrows, self.selection, self.measurement
         for layer in (*own, *self.optional.values()):
             layer.hide()  # type: ignore[attr-defined]
 
@@ -177,8 +130,7 @@ class OverlayLayers:
         except Exception as error:  # the other layers are drawn after any error
             self._failed.add(name)
             layer = self.optional[name] if name in self.optional else getattr(self, name)
-            if layer is not None:
-                layer.hide()
+            layer.hide()
             self._on_failure(error)
 
 
@@ -209,8 +161,3 @@ class Ghosts(TranslucentSurface):
         outer = ghosts[faces.hexes]
         self.set_faces(frame, frame.mesh.points, Faces(faces.nodes, faces.quads[outer], faces.hexes[outer]))
         self.show()
-
-    def move(self, frame: Frame) -> None:
-        """Draw the same ghosts at the current positions of their nodes."""
-        if self.shown:
-            self.move_faces(frame.mesh.points)

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.kernels import skin
-from hexmend.mesh.mesh import Mesh
-from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.cutting.cut import remaining_points
+from hexmend_app.scene.geometry.coloured_polygons import set_points
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges, segments, sharp_curved_edges
+from hexmend_app.scene.geometry.frame import Frame
+from hexmend_app.scene.geometry.skin import edges_of_kept
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
-from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.state.mesh.structure import sharp_edges
 from hexmend_app.theme.palette import SHADE, SHARP, SILHOUETTE, rgb
 
@@ -37,47 +36,31 @@ class Silhouette:
     """Draws the sharp edges of the boundary, and the outline of the whole mesh.
 
     Sharp edges of shown hexes are dark lines, those of hidden hexes are pale. A body whose sharp edges do not form
-    lines is drawn as a shade behind its visible part instead.
+    lines is drawn as a shade behind its visible part instead; a shade is flat.
 
     Attributes
     ----------
-    actor : vtkActor
+    poly : pv.PolyData
         Pale lines or shade of the whole mesh.
-    curved : bool
 
     Parameters
     ----------
-    renderer : vtkRenderer
-    mesh : Mesh
-        Mesh whose boundary is drawn; `move` updates positions of its nodes.
+    pane : Pane
     pixel_ratio : float
         Width of a thin line, in pixels.
-    curved : bool
-        Draw lines curved along the mid-nodes of the mesh; a shade is flat.
     """
 
-    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pixel_ratio: float = 1.0, curved: bool = False):
-        self._mesh, faces = mesh, mesh.topology.boundary_faces
-        self.curved = curved
-        self._edges = edges = sharp_curved_edges(mesh) if curved else sharp_edges(mesh.points, faces)
-        self._lines = lines = form_lines(edges)
-        self._curves = CurvedEdges(mesh, edges) if curved and lines else None
-        cells = edges if lines else faces
-        self._nodes, index = np.unique(cells, return_inverse=True)
-        self._cells = cells = index.reshape(cells.shape) if self._curves is None else self._curves.chains
-        points = self._places(mesh.points)
-        self._poly = _lines(points, cells) if lines else pv.PolyData.from_regular_faces(points, cells)  # type: ignore[arg-type]
-        self._renderer = renderer
-        self.actor, self._sharp = flat_actor(renderer, pixel_ratio), flat_actor(renderer, _BOLD * pixel_ratio)
-        self.actor.GetMapper().SetInputData(self._poly)
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        self.actor, self._sharp = (flat_actor(pane.renderer, width * pixel_ratio) for width in (1.0, _BOLD))
         offset_depth(self._sharp.GetMapper(), lines=_IN_FRONT, polygons=_IN_FRONT)
-        if not lines:
-            self.actor.GetProperty().BackfaceCullingOn()
-            offset_depth(self.actor.GetMapper(), lines=0.0, polygons=_BEHIND)
-        self.set_dark(False)
+        self.poly = pv.PolyData()
+        self._frame: Frame | None = None
+        self._dark = self._lines = False
+        self._curves: CurvedEdges | None = None
 
     def set_dark(self, dark: bool) -> None:
         """Use the colours of the dark or of the light theme."""
+        self._dark = dark
         self.actor.GetProperty().SetColor(rgb((SILHOUETTE if self._lines else SHADE).of(dark)))
         self._sharp.GetProperty().SetColor(rgb(SHARP.of(dark)))
 
@@ -86,52 +69,55 @@ class Silhouette:
         self.actor.SetVisibility(False)
         self._sharp.SetVisibility(False)
 
-    def show(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> None:
-        """Draw the outline according to a look.
+    def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw the outline of the mesh of a frame.
 
         Parameters
         ----------
-        look : Look
-        points : (n, 3) float64
+        frame : Frame
         keep : (m,) bool, optional
             True for hexes shown whole or in part; None for all.
         """
-        self.move(points)
-        shown = self._shown(look, points, keep) if look.show.outline and self._lines else np.zeros(0, bool)
+        if not frame.is_of(self._frame) or frame.curved != self._frame.curved:
+            self._set_mesh(frame)
+        self._frame, look = frame, frame.look
+        places = self._places(frame.mesh.points)
+        if not np.array_equal(places, self.poly.points):  # a fixed boundary is not uploaded again
+            set_points(self.poly, places)
         self.actor.SetVisibility(look.show.outline and (keep is not None or look.cut.active))
-        self._sharp.SetVisibility(bool(shown.any()))
-        if shown.any():
-            lines = _lines(self._poly.points, self._cells[shown])
-            lines.SetPoints(self._poly.GetPoints())  # share the points, which `move` updates
+        self._sharp.SetVisibility(False)
+        if self._lines and look.show.outline and not look.show.shrink:  # shrunk hexes do not touch the edges
+            middles = frame.mesh.points[self._edges].mean(axis=1)
+            shown = edges_of_kept(frame.mesh, self._edges, keep) & remaining_points(middles, look.cut)
+            self._sharp.SetVisibility(bool(shown.any()))
+            lines = pv.PolyData()
+            lines.SetPoints(self.poly.GetPoints())
+            lines.SetLines(_lines(self._cells[shown]))
             self._sharp.GetMapper().SetInputData(lines)
 
-    def _shown(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
-        """Return True for sharp edges of shown hexes that a smooth cut leaves, (e,) bool."""
-        mask = np.ones(len(self._edges), bool)
-        if look.show.shrink:
-            return ~mask  # the drawn hexes do not touch them
-        if keep is not None:
-            rows = self._mesh.topology.node_corners
-            skin.edges_kept(self._mesh.hexes, rows.start, rows.items, self._edges, keep, mask)
-        return mask & points_kept_by_cut(look, points[self._edges].mean(axis=1))
-
-    def move(self, points: np.ndarray) -> None:
-        """Move to the positions of the nodes, (n, 3) float64; a fixed boundary is not uploaded again."""
-        moved = self._places(points)
-        if not np.array_equal(moved, self._poly.points):
-            set_points(self._poly, moved)
+    def _set_mesh(self, frame: Frame) -> None:
+        mesh, faces = frame.mesh, frame.mesh.topology.boundary_faces
+        self._edges = edges = sharp_curved_edges(mesh) if frame.curved else sharp_edges(mesh.points, faces)
+        self._lines = form_lines(edges)
+        self._curves = CurvedEdges(mesh, edges) if frame.curved and self._lines else None
+        cells = edges if self._lines else faces
+        self._nodes, index = np.unique(cells, return_inverse=True)
+        self._cells = index.reshape(cells.shape) if self._curves is None else self._curves.chains
+        points = self._places(mesh.points)
+        if self._lines:
+            self.poly = pv.PolyData(points, lines=_lines(self._cells))
+        else:
+            self.poly = pv.PolyData.from_regular_faces(points, self._cells)  # type: ignore[arg-type]
+        self.actor.GetMapper().SetInputData(self.poly)
+        self.actor.GetProperty().SetBackfaceCulling(not self._lines)
+        offset_depth(self.actor.GetMapper(), lines=0.0, polygons=_BEHIND)
+        self.set_dark(self._dark)
 
     def _places(self, points: np.ndarray) -> np.ndarray:
         """Return the drawn points, (k, 3), from the positions of the nodes."""
         return points[self._nodes] if self._curves is None else self._curves.places(points)
 
-    def close(self) -> None:
-        """Remove the actors from the renderer."""
-        for actor in (self.actor, self._sharp):
-            self._renderer.RemoveActor(actor)
 
-
-def _lines(points: np.ndarray, chains: np.ndarray) -> pv.PolyData:
-    """Build lines from points, (k, 3), and the point numbers of lines or chains of lines, (e, 2) or more columns."""
-    ends = chains if chains.shape[1] == 2 else segments(chains)
-    return pv.PolyData(points, lines=pv.CellArray.from_regular_cells(ends))
+def _lines(chains: np.ndarray) -> pv.CellArray:
+    """Return lines from the point numbers of lines or chains of lines, (e, 2) or more columns."""
+    return pv.CellArray.from_regular_cells(chains if chains.shape[1] == 2 else segments(chains))

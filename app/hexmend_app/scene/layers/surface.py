@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
 import pyvista as pv
-from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend_app.picture.cut_shapes import Plane
+from hexmend_app.scene.geometry.coloured_polygons import COLOURS
 from hexmend_app.theme.palette import rgb
 
 #: Colour of edges; on dark faces, edges are lighter than the face instead.
@@ -30,12 +26,14 @@ vec3 outside = vec3(edist[0] - edgeEqn[0].z, edist[1] - edgeEqn[1].z, edist[2] -
 float height = dot(sines, outside) / max(max(sines.x, sines.y), max(sines.z, 1e-6));
 emix *= smoothstep(1.0, 2.8, height / lineWidth);
 vec3 face = ambientColor / max(ambientIntensity, 1e-3);
-vec3 tone = dot(face, vec3(0.30, 0.59, 0.11)) < 0.21 ? face + 0.33 : edgeColor;
+float luma = dot(face, vec3(0.30, 0.59, 0.11));
+vec3 tone = mix(face + 0.33, edgeColor * smoothstep(0.1, 0.4, luma), smoothstep(0.03, 0.08, luma));
+emix *= mix(2.0, 1.0, smoothstep(0.1, 0.4, luma));
 """
 
 
 #: Ambient and diffuse share of the light. A face towards the viewer has the colour of the legend, exactly where the two
-#: shares and the position of the light (see `hexmend_app.scene.views.pane`) add up to 1; no face that is seen from the
+#: shares and the position of the light (see `hexmend_app.scene.camera.pane`) add up to 1; no face that is seen from the
 #: front has less than two thirds of it, so that shades are not mistaken for other values.
 _AMBIENT_SHARE, _DIFFUSE_SHARE = 0.568, 0.46
 
@@ -45,10 +43,6 @@ _NORMALS = ("normalVCVSOutput", "normalVCGSOutput")
 _HARD = "df = max(0.0, dot({normal}, -lightDirectionVC0));"
 
 _SOFT = "df = 0.5 + 0.5 * dot({normal}, -lightDirectionVC0);"
-
-_COLOURS = "colours"
-
-_HEX = "hex"
 
 #: Name of the point colours of fine polygons.
 SHADED = "shaded"
@@ -107,7 +101,7 @@ class Surface:
         self._flat, self._fine = vtkPolyDataMapper(), vtkPolyDataMapper()
         self._flat.SetScalarModeToUseCellFieldData()
         self._fine.SetScalarModeToUsePointFieldData()
-        for mapper, colours in ((self._flat, _COLOURS), (self._fine, SHADED)):
+        for mapper, colours in ((self._flat, COLOURS), (self._fine, SHADED)):
             mapper.SelectColorArray(colours)
             mapper.SetColorModeToDirectScalars()
             mapper.ScalarVisibilityOn()
@@ -115,30 +109,21 @@ class Surface:
         self.actor.SetVisibility(False)
 
     def replace(self, poly: pv.PolyData) -> None:
-        """Replace the polygons, whose cell data contain their colours (see `coloured`)."""
+        """Replace the polygons, made by `hexmend_app.scene.geometry.coloured_polygons.coloured`."""
         self.poly = poly
         self._flat.SetInputData(poly)
         self.actor.SetMapper(self._flat)
         self.actor.SetVisibility(poly.GetNumberOfCells() > 0)
 
-    def show_proxy(self, poly: pv.PolyData | None, edges: bool = False) -> None:
-        """Draw other polygons instead, optionally with edges; None draws the polygons themselves again."""
+    def show_proxy(self, poly: pv.PolyData | None) -> None:
+        """Draw other polygons instead, without edges; None draws the polygons themselves again."""
         self._flat.SetInputData(self.poly if poly is None else poly)
         self.actor.SetMapper(self._flat)
-        self._without_edges = poly is not None and not edges
+        self._without_edges = poly is not None
         self._update_edges()
 
-    def clip(self, planes: Sequence[Plane]) -> None:
-        """Draw nothing beyond any of some planes; no planes draw all."""
-        self._flat.RemoveAllClippingPlanes()
-        for plane in planes:
-            kept = vtkPlane()
-            kept.SetNormal(*(-x for x in plane.normal))
-            kept.SetOrigin(plane.point)
-            self._flat.AddClippingPlane(kept)
-
     def refine(self, poly: pv.PolyData) -> None:
-        """Set the fine polygons, as made by `hexmend_app.scene.geometry.shaded_surface.shaded_surface`."""
+        """Set the fine polygons, as made by `hexmend_app.scene.layers.shaded_surface.shaded_surface`."""
         self._fine.SetInputData(poly)
 
     def show_fine(self) -> None:
@@ -174,56 +159,3 @@ class Surface:
 
     def _update_edges(self) -> None:
         self.actor.GetProperty().SetEdgeVisibility(self._edges and not self._without_edges)
-
-
-def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
-    """Build quads from points (u, 3), faces (k, 4), and colours (k, 3) uint8 and hexes (k,) int32 of the faces."""
-    return coloured(pv.PolyData.from_regular_faces(points, faces), colours, hexes)
-
-
-def coloured(data: pv.PolyData, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
-    """Set the colours of cells, (k, 3) uint8, and the hexes that they belong to, (k,) int32; return the dataset."""
-    if len(colours):  # VTK rejects empty arrays
-        data.cell_data[_COLOURS] = colours
-        data.cell_data[_HEX] = hexes.astype(np.int32, copy=False)
-    return data
-
-
-def recoloured(poly: pv.PolyData, colours: np.ndarray) -> pv.PolyData:
-    """Return a shallow copy of polygons in other colours, (k, 3) uint8."""
-    copy = poly.copy(deep=False)
-    copy.cell_data[_COLOURS] = colours
-    return copy
-
-
-def hex_of(data: pv.DataSet, cell: int) -> int:
-    """Return the hex that a cell belongs to."""
-    return int(data.cell_data[_HEX][cell])
-
-
-def hexes_of(poly: pv.PolyData) -> np.ndarray:
-    """Return the hexes that polygons belong to, (k,) int32."""
-    return np.asarray(poly.cell_data[_HEX])
-
-
-def colours_of(poly: pv.PolyData) -> np.ndarray:
-    """Return the colours of polygons, (k, 3) uint8."""
-    return np.asarray(poly.cell_data[_COLOURS])
-
-
-def set_points(data: pv.DataSet, points: np.ndarray) -> None:
-    """Overwrite the points in place and notify VTK."""
-    if not len(points):
-        return
-    data.points[:] = points  # type: ignore[index]  # PyVista's annotation names integers only
-    data.GetPoints().Modified()
-    data.Modified()
-
-
-def set_colours(data: pv.DataSet, colours: np.ndarray) -> None:
-    """Overwrite the colours of cells in place and notify VTK."""
-    if not len(colours):
-        return
-    data.cell_data[_COLOURS][:] = colours  # type: ignore[index]
-    data.GetCellData().GetArray(_COLOURS).Modified()
-    data.Modified()

@@ -6,13 +6,13 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor
 
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.coloured_polygons import quads
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import flat_actor
 from hexmend_app.scene.layers.invalid_outline import outlines
-from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import Role, rgb
 
 
@@ -40,8 +40,7 @@ class TranslucentSurface:
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.poly = pv.PolyData()
-        self._faces: Faces | None = None
-        self._curved: CurvedFaces | None = None
+        self._drawn: tuple[object, ...] = ()
         self.actors: tuple[vtkActor, vtkActor] = (
             flat_actor(pane.renderer, opacity=self.face_opacity),
             flat_actor(pane.renderer, pixel_ratio, self.edge_opacity),
@@ -63,46 +62,31 @@ class TranslucentSurface:
         for actor in self.actors:
             actor.GetProperty().SetColor(rgb(self.colour.of(dark)))
 
-    def set_data(self, poly: pv.PolyData, lines: pv.PolyData) -> None:
-        """Replace the surface and the lines on its points."""
-        self.poly = poly
+    def set_data(self, poly: pv.PolyData, edges: bool = True) -> None:
+        """Replace the surface, with lines along its edges or without any."""
+        self.poly, lines = poly, pv.PolyData()
+        if edges and poly.n_cells:
+            lines.SetPoints(poly.GetPoints())
+            lines.SetLines(pv.CellArray.from_regular_cells(outlines(poly, np.ones(poly.n_cells, dtype=bool))[0]))
         for actor, data in zip(self.actors, (poly, lines), strict=True):
             actor.GetMapper().SetInputData(data)
-
-    def set_quads(self, points: np.ndarray, quads: np.ndarray) -> None:
-        """Replace the surface by quads, (k, 4) indices of points (u, 3), with lines along their edges."""
-        if not len(quads):
-            self.set_data(pv.PolyData(), pv.PolyData())
-            return
-        poly, lines = pv.PolyData.from_regular_faces(points, quads), pv.PolyData()
-        lines.SetPoints(poly.GetPoints())
-        lines.SetLines(pv.CellArray.from_regular_cells(edges_of(quads)))
-        self.set_data(poly, lines)
 
     def set_faces(self, frame: Frame, points: np.ndarray, faces: Faces) -> None:
         """Replace the surface by faces of the hexes of a frame, curved if faces are, at points (n, 3) float64."""
         divisions = divisions_of(len(faces.quads)) if frame.curved else 1
-        self._faces, self._curved = faces, None
-        if divisions == 1:
-            self.set_quads(faces.places(points), faces.quads)
+        colours = np.zeros((len(faces.quads), 3), dtype=np.uint8)
+        if divisions > 1:
+            self.set_data(CurvedFaces(frame.mesh, faces, divisions).quads(points, colours))
         else:
-            self._curved = CurvedFaces(frame.mesh, faces, divisions)
-            self._set_curved(points, self._curved)
+            self.set_data(quads(faces.places(points), faces.quads, colours, faces.hexes))
 
-    def move_faces(self, points: np.ndarray) -> None:
-        """Move the faces that `set_faces` set to their positions in a mesh with points (n, 3) float64."""
-        if self._curved is None:
-            set_points(self.poly, self._faces.places(points))
-        else:
-            self._curved.move(self.poly, points)
+    def changes(self, *drawn: object) -> bool:
+        """Return True if the arrays and values that the surface is made from are others than the last time.
 
-    def _set_curved(self, points: np.ndarray, curved: CurvedFaces) -> None:
-        """Replace the surface by curved faces of a mesh with points (n, 3), with lines along their edges."""
-        poly, lines = curved.quads(points, np.zeros((curved.count, 3), dtype=np.uint8)), pv.PolyData()
-        if curved.count:
-            lines.SetPoints(poly.GetPoints())
-            lines.SetLines(pv.CellArray.from_regular_cells(outlines(poly, np.ones(poly.n_cells, dtype=bool))[0]))
-        self.set_data(poly, lines)
+        Masks of hexes are compared by their values, other arrays by identity.
+        """
+        last, self._drawn = self._drawn, drawn
+        return len(last) != len(drawn) or not all(map(_same, last, drawn))
 
     def show(self) -> None:
         """Draw the surface unless it is empty."""
@@ -117,7 +101,6 @@ class TranslucentSurface:
             actor.SetVisibility(on)
 
 
-def edges_of(*faces: np.ndarray) -> np.ndarray:
-    """Return the unique edges, (e, 2), of arrays of polygons, each (k, corners)."""
-    ends = [np.stack([polygons, np.roll(polygons, 1, axis=1)], axis=-1).reshape(-1, 2) for polygons in faces]
-    return np.unique(np.sort(np.concatenate(ends), axis=1), axis=0)
+def _same(one: object, other: object) -> bool:
+    masks = all(isinstance(value, np.ndarray) and value.dtype == bool for value in (one, other))
+    return one is other or (masks and np.array_equal(one, other))  # type: ignore[arg-type]

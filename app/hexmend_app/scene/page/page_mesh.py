@@ -10,7 +10,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.state.mesh.hex_groups import invalid_counts
 
 

@@ -13,7 +13,7 @@ from PIL import Image
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.picture import Corner, Page, Scene
-from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.cutting.filters import Filters
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.page.page_captions import draw_captions

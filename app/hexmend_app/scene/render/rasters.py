@@ -13,15 +13,15 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.directions import look_from
 from hexmend_app.scene.camera.fitting import fit
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import Colouring, declared_ends
-from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.cutting.filters import Filters
+from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
-from hexmend_app.scene.views.frame import Frame, same_hexes
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 from hexmend_app.state.node_step import NodeStep
 

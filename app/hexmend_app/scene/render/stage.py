@@ -18,7 +18,7 @@ class Stage:
     Attributes
     ----------
     window : vtkRenderWindow
-        Window for `hexmend_app.scene.views.pane.Pane`.
+        Window for `hexmend_app.scene.camera.pane.Pane`.
 
     Parameters
     ----------

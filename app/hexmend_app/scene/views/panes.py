@@ -9,12 +9,12 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.camera.camera_controller import CameraController
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.colouring import declared_ends
-from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.cutting.filters import Filters
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.overlay_layers import raise_error
 from hexmend_app.scene.views.arrangement import Arrangement
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit
 from hexmend_app.scene.views.viewport import Viewport
 from hexmend_app.state.view.side_views import Wipe
@@ -60,7 +60,6 @@ class Panes:
         self._arrangement = Arrangement(self._window, pixel_ratio)
         self.camera_controller = CameraController(lambda: self.visible, lambda: self._arrangement.aspect)
         self.arrange()
-        self.first.coarse_cuts = True
         self._observe(self.first)
         # Widgets that are dragged are in the first view.
         self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
@@ -124,7 +123,6 @@ class Panes:
         pane = Pane(self._window, self.first.camera)
         view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure, True)
         view.set_dark(self._dark)
-        view.coarse_cuts = True
         view.draw(Frame(mesh, figures).matching(self.first.frame))
         self._observe(view)
         return view

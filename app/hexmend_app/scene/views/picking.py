@@ -10,8 +10,9 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.scene.layers.surface import Surface, hex_of
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.coloured_polygons import hex_of
+from hexmend_app.scene.layers.surface import Surface
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,15 +9,15 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.fitting import bounds_of
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.colour.hex_colours import HexColours
+from hexmend_app.scene.cutting.filters import Filters, same_mask
 from hexmend_app.scene.geometry import occlusion
-from hexmend_app.scene.geometry.filters import Filters, same_mask
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.axes import AxesLayer
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.layers.overlay_layers import OverlayLayers, raise_error
-from hexmend_app.scene.views.frame import Frame, can_be_coarse, can_be_flat, flattened, is_moving_cut
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
 from hexmend_app.theme.palette import BACKGROUND, BACKGROUND_ABOVE, BACKGROUND_BELOW
 
@@ -37,8 +37,6 @@ class Viewport:
     mesh_layer : MeshLayer
     overlay_layers : OverlayLayers
         Layers besides the hexes.
-    coarse_cuts : bool
-        Draw cuts of large or curved meshes faster while they move; `still` draws them as they are.
 
     Parameters
     ----------
@@ -67,8 +65,6 @@ class Viewport:
         self._pane, self._gradient = pane, gradient
         self.frame: Frame | None = None
         self.filters = filters
-        self._fast = self.coarse_cuts = False
-        self._coarse_cut = False  # True while a cut is drawn coarsely
         self._keep: np.ndarray | None = None
         pane.window.SetMultiSamples(0)
         self.colours = HexColours()
@@ -108,74 +104,32 @@ class Viewport:
     def clear(self) -> None:
         """Draw no mesh."""
         self.frame = self.filters = self.colours.colouring = None
-        self._coarse_cut = False
         self.mesh_layer.hide()
         self.overlay_layers.hide()
 
     def _draw(self, frame: Frame, new_mesh: bool) -> None:
         last, self.frame = self.frame, frame
         moved = new_mesh or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
-        pinned = not new_mesh and frame.mesh.pinned is not last.mesh.pinned
-        classed = new_mesh or frame.kinds is not last.kinds
         restyled = new_mesh or frame.look != last.look
         recoloured = moved or frame.movement is not last.movement or frame.look.colours != last.look.colours
         if new_mesh:
-            self._set_mesh()
-        self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)
-        marked = frame.look.show.marked
-        if marked != (frozenset() if new_mesh else last.look.show.marked):
-            self.overlay_layers.selection.mark(np.array(sorted(marked), dtype=np.int64))
-        cut_alone = self.coarse_cuts and not (recoloured or pinned or classed) and is_moving_cut(last, frame)
-        if cut_alone and can_be_coarse(frame):
-            self._draw_coarse_cut()
-            return
+            if self.filters is None or not self.filters.matches(frame.mesh):
+                self.filters = Filters(frame.mesh)
+            self.mesh_layer.set_mesh(frame.mesh)
         if recoloured:
             self.colours.measure(frame)
         keep = self.kept()
-        self.overlay_layers.draw_optional(frame, keep)
-        if restyled or self._coarse_cut or not same_mask(keep, self._keep):
-            self._keep, self._coarse_cut = keep, cut_alone and can_be_flat(frame)
-            self._rebuild(flattened(frame) if self._coarse_cut else frame)
-        elif recoloured or pinned or classed:
-            self._move()
-
-    def _draw_coarse_cut(self) -> None:
-        """Draw the hexes at a cut, and the skin coarsely."""
-        self._coarse_cut, cut, points = True, self.frame.look.cut, self.frame.mesh.points
-        opened = self.filters.planes.sections(points, cut.sides)
-        self.mesh_layer.draw_coarse_cut(self.frame, cut.sides, opened, self.colours)
-
-    def _finish_cut(self) -> None:
-        """Draw a cut as it is, if it is drawn coarsely."""
-        if self._coarse_cut:
-            self._coarse_cut, self._keep = False, self.kept()
-            self.overlay_layers.draw_optional(self.frame, self._keep)
-            self._rebuild(self.frame)
-
-    def _set_mesh(self) -> None:
-        self.overlay_layers.set_mesh(self.frame)
-        mesh = self.frame.mesh
-        if self.filters is None or not self.filters.matches(mesh):
-            self.filters = Filters(mesh)
-        self.mesh_layer.set_mesh(mesh)
-
-    def _rebuild(self, frame: Frame) -> None:
-        """Find the visible faces again."""
-        self.mesh_layer.rebuild(frame, self._keep, self.colours)
-        self.overlay_layers.rebuild(frame, self._keep, self.mesh_layer, self.filters.ghosts)
-
-    def _move(self) -> None:
-        """Update positions and colours of the same faces."""
-        if self._coarse_cut:
-            self._finish_cut()
-            return
-        self.mesh_layer.move(self.frame, self._keep, self.colours)
-        self.overlay_layers.move(self.frame, self._keep, self.mesh_layer)
+        if restyled or not same_mask(keep, self._keep):
+            self._keep = keep
+            self.mesh_layer.rebuild(frame, keep, self.colours)
+        elif recoloured:
+            self.mesh_layer.move(frame, keep, self.colours)
+        self.overlay_layers.draw(frame, keep, self.mesh_layer, self.filters.ghosts(frame))
 
     def extend_range(self, ends: tuple[float, float] | None) -> None:
         """Extend a fitted colour range to these ends, the range of all views; None fits it to this view alone."""
         if self.colours.extend_range(ends):
-            self._move()
+            self.mesh_layer.move(self.frame, self._keep, self.colours)
 
     # Shown hexes
 
@@ -206,8 +160,6 @@ class Viewport:
         """Pick at a position in pixels of the picture, from its lower left corner; None outside the mesh."""
         if self.frame is None:
             return None
-        self._finish_cut()
-        self._set_fast(False)  # fast frames omit faces
         self.mesh_layer.show_fine()
         return self._picker.pick(x, y, self.frame.mesh)
 
@@ -227,10 +179,8 @@ class Viewport:
     def places(self) -> np.ndarray:
         """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown.
 
-        While a cut is outlined, they include the outline of the part that it removes, unless hexes are isolated. A cut
-        that is drawn coarsely is drawn as it is first.
+        While a cut is outlined, they include the outline of the part that it removes, unless hexes are isolated.
         """
-        self._finish_cut()
         places = np.concatenate([self.mesh_layer.places, self.overlay_layers.places])
         mesh, look = self.frame.mesh, self.frame.look
         outlined = look.cut.active and look.show.outline and look.show.isolate is None
@@ -246,7 +196,7 @@ class Viewport:
     def moving(self) -> None:
         """Prepare for fast frames."""
         self._pane.window.SetMultiSamples(0)
-        self._set_fast(True)
+        self._pane.set_fast(True)
 
     def turning(self, views: int = 1) -> None:
         """Prepare for fast frames in which only the camera moves; the window shows `views` views."""
@@ -256,9 +206,8 @@ class Viewport:
 
     def still(self) -> None:
         """Prepare for a fine frame, with antialiasing."""
-        self._finish_cut()
         self._pane.window.SetMultiSamples(4)
-        self._set_fast(False)
+        self._pane.set_fast(False)
         self.mesh_layer.come_to_rest()
 
     def shade(self) -> None:
@@ -266,19 +215,6 @@ class Viewport:
         polygons = self.mesh_layer.needs_shading
         if polygons is not None:
             self.mesh_layer.apply_shading(polygons, occlusion.ambient_light(polygons))
-
-    def _set_fast(self, fast: bool) -> None:
-        if fast == self._fast:
-            return
-        self._fast = self.mesh_layer.fast = fast
-        self._pane.set_fast(fast)
-        self.overlay_layers.set_fast(fast)
-        if self.frame is None:
-            return
-        if self.mesh_layer.faces.many:
-            self._rebuild(self.frame)
-        elif not self._coarse_cut:
-            self.mesh_layer.outline_invalid()
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:

@@ -8,8 +8,8 @@ from hexmend.quality import measure
 from hexmend_app.picture import Cut, CutStyle, Isolate, Show
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.side_views import Wipe
 from tests.core.grids import grid

@@ -15,10 +15,10 @@ from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED, Colouring, are_invalid, range_label, resolve
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.colour.material_colours import material_table
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
-from hexmend_app.scene.views.frame import Frame
 from tests.app.invalid_hexes import INSIDE, THREE, VALID
 from tests.app.invalid_hexes import INVERTED as TURNED
 from tests.core.grids import grid

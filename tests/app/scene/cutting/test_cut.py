@@ -12,20 +12,16 @@ from hexmend.quality import measure
 from hexmend_app.picture import Box, Cut, CutStyle, Depth, DepthUnit, Plane, Sphere
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.cutting import cut
-from hexmend_app.scene.cutting.coarse_section import coarse_section
-from hexmend_app.scene.cutting.curved_sections import curved_sections
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
-from hexmend_app.scene.cutting.moving_planes import MOST_PLANES, MovingPlanes
-from hexmend_app.scene.cutting.polygons import Polygons
+from hexmend_app.scene.cutting.filters import Filters
+from hexmend_app.scene.geometry.coloured_polygons import hexes_of, quads
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of
-from hexmend_app.scene.geometry.filters import Filters
-from hexmend_app.scene.geometry.plane_sides import centres_kept
+from hexmend_app.scene.geometry.frame import Frame
+from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.geometry.skin import Skin
-from hexmend_app.scene.layers.surface import hexes_of, quads
-from hexmend_app.scene.views.frame import Frame
 from tests.core.curved_shell import curved_shell
-from tests.core.grids import grid, placed, scrambled
+from tests.core.grids import grid, placed
 
 MESH = grid(4, 3, 2)
 COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
@@ -36,14 +32,14 @@ COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
     [((1, 0, 0), (1.5, 0, 0), 6, 6), ((0, 1, 0), (0, 0.25, 0), 8, 8), ((0, 0, -1), (0, 0, 1.5), 12, 12), ((1, 1, 0), (1, 0.5, 0), 3 * 2**0.5, None)],
 )  # fmt: skip
 def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
-    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at(normal, origin), COLOURS)
+    got = cut.sections(MESH, None, Cut.at(normal, origin), COLOURS)
     assert got.area == pytest.approx(area, rel=1e-6)
     assert cells is None or got.n_cells == cells
 
 
 @pytest.mark.parametrize("x", [1, 2, 3, 4])
 def test_a_plane_through_nodes_shows_the_remaining_hexes(x):
-    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (x, 0, 0)), COLOURS)
+    got = cut.sections(MESH, None, Cut.at((1, 0, 0), (x, 0, 0)), COLOURS)
     assert got.area == pytest.approx(6)
     hexes = got.cell_data["colours"][:, 0] // 3
     assert sorted(hexes) == [x - 1 + 4 * k for k in range(6)]
@@ -55,12 +51,12 @@ def test_the_section_by_a_plane_through_nodes_is_complete_despite_rounding(seed,
     turn *= np.linalg.det(turn)  # a rotation, not a mirror image
     shift = np.random.default_rng(seed).normal(size=3) * 10
     plane = Cut.at(turn[:, 0], turn[:, 0] * x + shift)
-    got = cut.sections(MESH.points @ turn.T + shift, MESH.hexes, None, plane, COLOURS)
+    got = cut.sections(MESH.with_points(MESH.points @ turn.T + shift), None, plane, COLOURS)
     assert got.area == pytest.approx(6)
 
 
 def test_each_polygon_has_the_colour_of_its_hex():
-    got = cut.sections(MESH.points, MESH.hexes, None, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH, None, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     centres = got.cell_centers().points
     for centre, colour in zip(centres, got.cell_data["colours"], strict=True):
         h = int(centre[0]) + 4 * int(centre[1]) + 12 * int(centre[2])
@@ -70,7 +66,7 @@ def test_each_polygon_has_the_colour_of_its_hex():
 def test_hidden_hexes_are_not_cut():
     keep = np.zeros(24, dtype=bool)
     keep[1] = True
-    got = cut.sections(MESH.points, MESH.hexes, keep, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH, keep, Cut.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     assert got.area == pytest.approx(1)
 
 
@@ -93,7 +89,7 @@ def test_several_planes_leave_the_expected_areas(clip, skin_area, section_area):
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
     assert cut.remaining_skin(skin, clip).area == pytest.approx(skin_area)
-    assert cut.sections(MESH.points, MESH.hexes, None, clip, COLOURS).area == pytest.approx(section_area)
+    assert cut.sections(MESH, None, clip, COLOURS).area == pytest.approx(section_area)
 
 
 @given(
@@ -107,6 +103,16 @@ def test_a_cut_by_whole_hexes_depends_on_their_centres(normals, notch):
     clear = (np.abs(beyond) > 1e-12).all(axis=0)
     hidden = (beyond > 0).all(axis=0) if notch else (beyond > 0).any(axis=0)
     np.testing.assert_array_equal(kept[clear], ~hidden[clear])
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 3))
+def test_a_plane_through_centres_keeps_whole_layers_despite_rounding(seed, layer):
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    turn *= np.linalg.det(turn)  # a rotation, not a mirror image
+    mesh = MESH.with_points(MESH.points @ turn.T + 10 * turn[:, 1])
+    clip = Cut.at(turn[:, 0], turn[:, 0] * (layer + 0.5))
+    shown = Filters(mesh).kept(Frame(mesh, measure(mesh.points, mesh.hexes), look=Look(cut=clip)))
+    np.testing.assert_array_equal(shown, MESH.points[MESH.hexes].mean(axis=1)[:, 0] <= layer + 0.5)
 
 
 def test_a_plane_near_an_axis_snaps_to_it():
@@ -226,7 +232,7 @@ def smooth(*planes, **options):
 
 
 def cut_of(mesh, cut, divisions=4, keep=None):
-    return curved_sections(mesh, keep, cut, np.zeros((mesh.n_hexes, 3), np.uint8), divisions)
+    return sections(mesh, keep, cut, np.zeros((mesh.n_hexes, 3), np.uint8), divisions)
 
 
 def drawn_length(poly):
@@ -302,7 +308,7 @@ CUTS = {
 def test_straight_hexes_have_the_sections_and_the_edges_of_hexes_of_eight_nodes(cut):
     mesh, linear = straight()
     colours = np.zeros((linear.n_hexes, 3), np.uint8)
-    section, flat = cut_of(mesh, cut, 3), sections(linear.points, linear.hexes, None, cut, colours)
+    section, flat = cut_of(mesh, cut, 3), sections(linear, None, cut, colours)
     assert section.area == pytest.approx(flat.area, rel=1e-6)
     assert drawn_length(section) == pytest.approx(drawn_length(flat), rel=1e-6)
     faces = Skin(linear).visible()
@@ -327,57 +333,3 @@ def test_normals_of_a_cut_face_are_those_of_the_cylinder():
     wall = (radius > 1.99) & (np.abs(facing) > 0.05)
     assert wall.any()
     assert (facing[wall] > np.cos(np.radians(1))).all()
-
-
-# Planes that move along their normals, compared with cuts computed anew; and the coarse picture of what they open.
-
-
-CURVED = grid(5, 4, 3)
-
-
-def planes_of(random, count, along_axes):
-    normals = np.eye(3)[random.integers(0, 3, count)] if along_axes else random.normal(size=(count, 3))
-    return [Plane(tuple(n), point=tuple(random.uniform(0, 4, 3))) for n in normals]
-
-
-@given(st.integers(0, 2**32 - 1), st.integers(1, MOST_PLANES + 2), st.booleans(), st.booleans())
-def test_what_is_kept_is_what_a_cut_computed_anew_keeps(seed, count, notch, along_axes):
-    random, moving = np.random.default_rng(seed), MovingPlanes(CURVED)
-    for points in (CURVED.points, scrambled(CURVED, 0.3, seed).points, CURVED.points):
-        planes = planes_of(random, count, along_axes)
-        for _ in range(2):
-            normals, offsets = zip(*(plane.equation for plane in planes), strict=True)
-            expected = centres_kept(points, CURVED.hexes, np.array(normals), np.array(offsets), notch)
-            np.testing.assert_array_equal(moving.kept(points, planes, notch), expected)
-            shift = random.normal(size=3)
-            planes = [Plane(plane.normal, point=tuple(plane.point + shift)) for plane in planes]
-
-
-@given(st.integers(0, 2**32 - 1), st.integers(1, MOST_PLANES), st.booleans())
-def test_sections_are_the_faces_inside_the_mesh_that_a_cut_makes_visible(seed, count, along_axes):
-    random, moving, skin = np.random.default_rng(seed), MovingPlanes(CURVED), Skin(CURVED)
-    points, planes = scrambled(CURVED, 0.3, seed).points, planes_of(random, count, along_axes)
-    kept = moving.kept(points, planes, False)
-    faces = skin.visible(kept)
-    inside = skin.opened(faces, kept)
-    expected = {(h, *nodes) for h, nodes in zip(faces.hexes[inside], faces.nodes[faces.quads[inside]], strict=True)}
-    quads, hexes = moving.sections(points, planes)
-    assert {(h, *nodes) for h, nodes in zip(hexes, quads, strict=True)} == expected
-
-
-@pytest.mark.parametrize("cells", [0.5, 100])
-def test_small_faces_become_squares_in_the_plane_and_large_ones_stay(cells):
-    """A cell of 1/128 of the diagonal is larger or smaller than the faces."""
-    plane, moving = Plane((0.0, 0.0, 1.0), point=(0.0, 0.0, 1.6)), MovingPlanes(CURVED)
-    quads, hexes = moving.sections(CURVED.points, [plane])
-    corners, owners = coarse_section(CURVED.points, quads, hexes, [plane], diagonal=128 * 2 / cells)
-    assert corners.shape == (4 * len(owners), 3)
-    assert set(owners) <= set(hexes)
-    if cells > 1:
-        np.testing.assert_array_equal(corners, CURVED.points[quads.ravel()])
-        np.testing.assert_array_equal(owners, hexes)
-        return
-    np.testing.assert_allclose(corners[:, 2], 1.6)
-    sides = np.linalg.norm(np.roll(corners.reshape(-1, 4, 3), -1, axis=1) - corners.reshape(-1, 4, 3), axis=2)
-    np.testing.assert_allclose(sides, 4.0)
-    assert len({tuple(place) for place in corners.reshape(-1, 4, 3).mean(axis=1).round(9)}) == len(owners)

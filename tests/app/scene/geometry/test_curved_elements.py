@@ -10,12 +10,12 @@ from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.scene.camera.vtk_pose import apply_pose
+from hexmend_app.scene.geometry.coloured_polygons import hexes_of
 from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, evaluate_hexes, quad_normals
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of
 from hexmend_app.scene.geometry.skin import Skin
 from hexmend_app.scene.layers.invalid_outline import outlines
-from hexmend_app.scene.layers.surface import hexes_of
 from tests.app.scene.showing import frame_of
 from tests.core.curved_shell import curved_shell
 

@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from hexmend.errors import MeshError
 from hexmend.kernels import skin
 from hexmend.mesh.hexahedron import EDGES, FACES
-from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry.occlusion import ambient_light, directions
-from hexmend_app.scene.geometry.plane_sides import centres_kept, touched
+from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
 from tests.core.threads import by_threads
@@ -53,24 +52,22 @@ def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
     assert sorted(faces.nodes.tolist()) == sorted(set(quads.ravel().tolist()))
 
 
-@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]), st.booleans())
-def test_shrunk_hexes_have_separate_nodes_nearer_to_their_mean(size, seed, whole, fine):
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]))
+def test_shrunk_hexes_have_separate_nodes_nearer_to_their_mean(size, seed, whole):
     mesh, shrink = grid(*size), 0.3
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.7
     few = keep.sum() <= whole
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", whole)
-        faces = Skin(mesh).shrunk(shrink, keep, fine)
+        faces = Skin(mesh).shrunk(shrink, keep)
     behind = mesh.topology.face_neighbours
     seen = keep[:, None] & ((behind < 0) | ~keep[behind])
     chosen = keep if few else seen.any(axis=1)
-    drawn = chosen[:, None] & (seen | fine | few)
     hexes = np.flatnonzero(chosen)
     np.testing.assert_array_equal(faces.nodes, mesh.hexes[hexes].ravel())
-    np.testing.assert_array_equal(faces.hexes, np.nonzero(drawn)[0])
-    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[:, FACES][drawn])
+    np.testing.assert_array_equal(faces.hexes, np.repeat(hexes, 6))
+    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[hexes][:, FACES].reshape(-1, 4))
     assert (hexes[faces.quads // 8] == faces.hexes[:, None]).all()
-    assert faces.many == (not few)
     x = mesh.points[mesh.hexes[hexes]]
     places = x + shrink * (x.mean(axis=1, keepdims=True) - x)
     np.testing.assert_allclose(faces.places(mesh.points), places.reshape(-1, 3), atol=1e-14)
@@ -87,14 +84,14 @@ def test_edges_of_kept_hexes_are_kept(size, seed):
     assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
 
 
-@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all"]))
 def test_a_face_is_opened_if_it_is_inside_the_mesh(size, seed, shrunk):
     mesh = grid(*size)
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.6
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 10_000 if shrunk == "all" else 0)
         one = Skin(mesh)
-        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep, shrunk == "fine")
+        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep)
     boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
     nodes = faces.nodes[faces.quads] if shrunk is None else None
     if nodes is None:  # they have nodes of their own, eight by eight
@@ -109,46 +106,6 @@ def test_invalid_arrays_are_rejected_before_the_kernel_is_called():
         Skin(mesh).visible(np.ones(7, bool))
     with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
         Skin(mesh).shrunk(0.5).places(mesh.points[:5])
-    normals, offsets = np.eye(3), np.zeros(3)
-    for of in (centres_kept, touched):
-        with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
-            of(mesh.points[:5], mesh.hexes, normals, offsets, False)
-        with pytest.raises(MeshError, match=r"offsets have shape \(2,\): expected \(3,\)"):
-            of(mesh.points, mesh.hexes, normals, offsets[:2], False)
-
-
-# Sides of planes on which hexes lie, compared with NumPy.
-
-
-MESH = grid(4, 3, 2)
-
-
-def heights(points, normals):
-    """x . normal of every point and plane, (n, k), every operation rounded on its own."""
-    return sum(points[:, None, i] * normals[None, :, i] for i in range(3))
-
-
-@given(st.integers(0, 2**32 - 1), st.integers(1, 6), st.booleans(), st.booleans())
-def test_results_agree_with_numpy(seed, planes, notch, along_axes):
-    random = np.random.default_rng(seed)
-    points = MESH.points if along_axes else scrambled(MESH, 0.2, seed).points
-    # Along axes planes go through nodes, and through centres.
-    normals = np.eye(3)[random.integers(0, 3, planes)] if along_axes else random.normal(size=(planes, 3))
-    offsets = random.integers(0, 9, planes) / 2 if along_axes else random.uniform(0, 3, planes)
-    h = heights(points, normals)[MESH.hexes]  # (m, 8, k)
-
-    kept = h.sum(axis=1) <= 8 * offsets
-    expected = kept.any(axis=1) if notch else kept.all(axis=1)
-    if not along_axes and (np.abs(h.sum(axis=1) - 8 * offsets) < 1e-9).any():
-        return
-    np.testing.assert_array_equal(centres_kept(points, MESH.hexes, normals, offsets, notch), expected)
-
-    slack = 1e-12 * np.maximum(np.abs(heights(points, normals)).max(axis=0), np.abs(offsets))
-    before, beyond = h.max(axis=1) < offsets - slack, h.min(axis=1) > offsets + slack
-    hidden = (before if notch else beyond).any(axis=1)
-    np.testing.assert_array_equal(
-        touched(points, MESH.hexes, normals, offsets, notch), ~(before | beyond) & ~hidden[:, None]
-    )
 
 
 # Ambient occlusion, compared with analytical results.

@@ -9,12 +9,12 @@ from hexmend.gallery.gallery_mesh import extrude
 from hexmend.gallery.pentagon import fan, subdivide
 from hexmend_app.picture import Box, Cut, CutStyle, LineStyle, Show
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.optional.interfaces import InterfaceLayer
 from hexmend_app.scene.layers.optional.structure import BOUNDARY, FREE, IRREGULAR_NODE, KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.scene.layers.silhouette import form_lines
 from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.mesh.structure import sharp_edges
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER, classify_boundary
 from tests.app.features.structure.layers import count

@@ -7,9 +7,9 @@ from hexmend.quality import measure
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.displacement import Displacement, ReferenceState
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.views.arrangement import columns, grid
-from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.side_views import Wipe
 from tests.core.grids import grid as hexes

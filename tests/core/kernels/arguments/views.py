@@ -8,18 +8,12 @@ from tests.core.kernels.arguments.rows import Row, case, row
 
 
 def rows() -> Iterator[Row]:
-    n, m, f, places = case().n, case().m, case().f, case().faces.ravel()
-    planes = {"normals": 2, "offsets": 2}
-    yield row("clip_planes.centre_heights", "points", normal=1, eightfold=m)
-    yield row("clip_planes.opened", eightfold=m, extent=1.0, offset=0.0)
-    yield row("clip_planes.touched", "points", answer=2 * m, notch=False, **planes)
+    n, f, places = case().n, case().f, case().faces.ravel()
     yield row("decimals.decimal_lines", empty="last", values=6, width=3, last=2)
     yield row("decimals.whole_lines", empty="values", values=6, width=3)
     polygons = {"start": 4 * np.arange(f + 1), "places": places}
     light = {"normals": f, "directions": 2, "side": 16, "light": 4 * f, "whole": 4 * f}
     yield row("occlusion.normals", "points", answer=f, **polygons)
     yield row("occlusion.shine", "points", "directions", **light, **polygons)
-    yield row("polygons.before", "points", owner=f, **planes, **polygons)
     yield row("skin.visible", nodes=n)
-    yield row("skin.faces_of", chosen=m, hidden=False)
     yield row("skin.edges_kept", edges=f, answer=f)

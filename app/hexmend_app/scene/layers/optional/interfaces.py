@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import INTERFACE
 
 #: Depth offsets of faces and of edges, in VTK's units, which show them in front of those of the hexes.
-_IN_FRONT, _EDGES_IN_FRONT = -200.0, -400.0
+_IN_FRONT, _EDGES_IN_FRONT = -4.0, -8.0
 #: Width of the edges of interfaces, in thin lines.
 _EDGE_WIDTH = 2.0
 
@@ -39,9 +38,7 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         super().__init__(pane, pixel_ratio)
         self.actors[1].GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
         for actor in self.actors:
-            offset_depth(actor.GetMapper(), polygons=_IN_FRONT, lines=_EDGES_IN_FRONT)
-        self._drawn: tuple[object, ...] = (None, None, None)
-        self._keep: np.ndarray | None = None
+            offset_depth(actor.GetMapper(), polygons=_IN_FRONT, lines=_EDGES_IN_FRONT, slope=-1.0)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw the faces at shown hexes."""
@@ -49,21 +46,11 @@ class InterfaceLayer(TranslucentSurface, OptionalLayer):
         if mesh.materials is None:
             self.hide()
             return
-        drawn = mesh.points, mesh.materials, frame.curved
-        if any(one is not other for one, other in zip(drawn, self._drawn, strict=True)) or not same_mask(
-            keep, self._keep
-        ):
-            self._drawn, self._keep = drawn, keep
-            self._rebuild(frame, keep)
+        if self.changes(mesh.points, mesh.materials, frame.curved, keep):
+            faces, sides = mesh.materials.interface_faces, mesh.materials.interface_sides
+            shown = slice(None) if keep is None else keep[sides[:, [0, 2]]].any(axis=1)
+            self.set_faces(frame, mesh.points, Faces.of(faces[shown], sides[shown, 0]))
         self.show()
-
-    def _rebuild(self, frame: Frame, keep: np.ndarray | None) -> None:
-        materials = frame.mesh.materials
-        faces, sides = materials.interface_faces, materials.interface_sides
-        if keep is not None:
-            shown = keep[sides[:, [0, 2]]].any(axis=1)
-            faces, sides = faces[shown], sides[shown]
-        self.set_faces(frame, frame.mesh.points, Faces.of(faces, sides[:, 0]))
 
     @classmethod
     def legend(cls, mesh: Mesh) -> list[LegendEntry]:

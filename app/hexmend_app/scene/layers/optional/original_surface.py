@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.skin import Faces
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import ORIGINAL
 
 #: Depth offsets of faces and edges, in VTK's units, which hide them where the boundary is unchanged.
@@ -35,8 +34,6 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._drawn: tuple[np.ndarray | None, bool] = (None, False)  # points, and whether faces are curved
-        self._keep: np.ndarray | None = None
         for actor in self.actors:
             offset_depth(actor.GetMapper(), polygons=_FACES_BEHIND, lines=_EDGES_BEHIND)
 
@@ -45,9 +42,7 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
         if frame.original is None:
             self.hide()
             return
-        drawn = frame.original, frame.curved
-        if drawn[0] is not self._drawn[0] or drawn[1] != self._drawn[1] or not same_mask(keep, self._keep):
-            self._drawn, self._keep = drawn, keep
+        if self.changes(frame.original, frame.curved, keep):
             topology = frame.mesh.topology
             hexes = np.nonzero(topology.face_neighbours < 0)[0]
             shown = slice(None) if keep is None else keep[hexes]

@@ -7,16 +7,17 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.boundary import NodeClass
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
-from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
-from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.cutting.cut import remaining_points
 from hexmend_app.scene.geometry.curved_edges import CurvedEdges
-from hexmend_app.scene.geometry.skin import Faces
-from hexmend_app.scene.layers.marks import Marks
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
+from hexmend_app.scene.geometry.skin import Faces, edges_of_kept
+from hexmend_app.scene.layers.marks import MANY, Marks
 from hexmend_app.state.mesh.structure import MeshStructure, find_structure
 from hexmend_app.state.tasks.boundary_classifier import LEFT, PIN, WHISKER, departures_from_surface, node_classes
 
@@ -35,11 +36,6 @@ KINDS: dict[int, str] = {
     WHISKER: "#cc79a7", PIN: PINNED, LEFT: "#9b30ff",
 }  # fmt: skip
 
-#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh, to
-#: keep the mesh visible; fast frames omit their rims and marks inside, which saves 0.1 s for 26,000 marks in software
-#: rendering.
-_MANY = 1500
-
 #: Edge length of hexes in pixels from which marks have their full size.
 _FULL_SIZE = 25.0
 
@@ -49,6 +45,8 @@ class StructureLayers:
 
     Attributes
     ----------
+    renderer : vtkRenderer
+        Renderer of marks inside the mesh.
     irregular, irregular_inside, sharp, nodes : Marks
         Marks of visible irregular edges, of irregular edges inside the mesh, of sharp edges and of nodes.
 
@@ -60,161 +58,113 @@ class StructureLayers:
     """
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
-        self._inside = pane.overlay()  # shows hidden marks; visible ones are drawn in both renderers
+        self.renderer = pane.overlay()  # shows hidden marks; visible ones are drawn in both renderers
         front = self._front = pane.renderer
+
+        def marks(renderer: vtkRenderer, size: float, rim: float) -> Marks:
+            return Marks(renderer, size, rim, pixel_ratio)
+
         self._full_size = pixel_ratio * _FULL_SIZE
-        self.irregular, self.irregular_inside = (
-            Marks(front, 4, 1.25, pixel_ratio),
-            Marks(self._inside, 1.5, 0.75, pixel_ratio),
-        )
-        self._ends, self._ends_inside = Marks(front, 7, 2, pixel_ratio), Marks(self._inside, 4, 1.5, pixel_ratio)
-        self._boundary, self.sharp = Marks(front, 4, 1.25, pixel_ratio), Marks(front, 3, 0.5, pixel_ratio)
-        self.nodes, self._locked = Marks(front, 5, 1.5, pixel_ratio), Marks(front, 5, 1.5, pixel_ratio)
-        self._edge_marks = (
+        self.irregular, self.irregular_inside = marks(front, 4, 1.25), marks(self.renderer, 1.5, 0.75)
+        self._ends, self._ends_inside = marks(front, 7, 2), marks(self.renderer, 4, 1.5)
+        self._boundary, self.sharp = marks(front, 4, 1.25), marks(front, 3, 0.5)
+        self.nodes, self._locked = marks(front, 5, 1.5), marks(front, 5, 1.5)
+        self._all = (
             self.irregular, self.irregular_inside, self._ends, self._ends_inside, self._boundary, self.sharp,
+            self.nodes, self._locked,
         )  # fmt: skip
+        self._frame: Frame | None = None
         self._structure: MeshStructure | None = None
-        self._fast = False
-        self._inside.DrawOff()
+        self._classes: np.ndarray | None = None  # of the nodes of the last frame, if it has none itself
         front.AddObserver("StartEvent", self._scale)
 
-    @property
-    def layer(self) -> vtkRenderer:
-        """Renderer of marks inside the mesh."""
-        return self._inside
-
-    def set_mesh(self, mesh: Mesh) -> None:
-        """Replace the mesh; its structure is computed when first needed."""
-        self._mesh, self._structure = mesh, None
-        self.set_kinds(None)
-        self.set_positions(mesh)
-
-    def set_positions(self, mesh: Mesh) -> None:
-        """Set the same mesh with other positions: classes that were not given are computed anew when needed."""
-        self._positions = mesh
-        if not self._given:
-            self.set_kinds(None)
-
-    def set_pins(self, pinned: np.ndarray | None) -> None:
-        """Set the pinned nodes of the same mesh, (n,) bool; `move` draws them."""
-        self._mesh = self._mesh.replace(pinned=pinned)
-
-    def set_kinds(self, kinds: np.ndarray | None) -> None:
-        """Set the boundary classes of nodes of the same mesh, (n,) uint8; None computes them when needed."""
-        self._kinds, self._given = kinds, kinds is not None
-
-    def rebuild(
-        self, look: Look, points: np.ndarray, figures: ElementQuality, faces: Faces, keep: np.ndarray | None
-    ) -> None:
+    def draw(self, frame: Frame, keep: np.ndarray | None, faces: Faces) -> None:
         """Draw the structure of the shown hexes.
 
         Parameters
         ----------
-        look : Look
-        points : (n, 3) float64
-        figures : ElementQuality
-            Quality of the mesh at `points`.
-        faces : Faces
-            Visible faces; only their nodes are marked.
+        frame : Frame
         keep : (m,) bool, optional
             True for hexes shown whole or in part; None for all.
+        faces : Faces
+            Visible faces; only their nodes are marked.
         """
-        self._look, self._keep, self._faces = look, keep, faces
-        for marks in self._edge_marks:
-            marks.hide()
-        if not look.structure.on.isdisjoint(EDGE_LAYERS):
-            self._draw_edges(look.structure, points)
-        self._draw_nodes(points, figures)
-        self._update_detail()
+        last, self._frame, self._keep = self._frame, frame, keep
+        if not frame.is_of(last):
+            self._structure = None
+        if last is None or last.mesh.points is not frame.mesh.points or last.mesh.pinned is not frame.mesh.pinned:
+            self._classes = None
+        self.hide()
+        if not frame.look.structure.on.isdisjoint(EDGE_LAYERS):
+            self._draw_edges()
+        if not frame.look.structure.on.isdisjoint(("fixed", "free", "locked", "kinds")):
+            self._draw_nodes(faces)
         quads = faces.quads[:: max(1, len(faces.quads) // 1000)]
-        ends = points[faces.nodes[quads[:, :2]]]
+        ends = frame.mesh.points[faces.nodes[quads[:, :2]]]
         self._spacing = float(np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))) if len(quads) else 0.0
-
-    def move(self, points: np.ndarray, figures: ElementQuality) -> None:
-        """Draw the same marks at the current positions of the nodes, (n, 3) float64."""
-        for marks in self._edge_marks:
-            marks.move(points)
-        self._draw_nodes(points, figures)
-        self._update_detail()
-
-    def set_fast(self, fast: bool) -> None:
-        """Omit details of many marks in fast frames, or draw everything again."""
-        self._fast = fast
-        self._update_detail()
 
     def hide(self) -> None:
         """Hide all marks."""
-        for marks in (*self._edge_marks, self.nodes, self._locked):
+        for marks in self._all:
             marks.hide()
-        self._inside.DrawOff()
 
-    def _update_detail(self) -> None:
-        for marks in (*self._edge_marks, self.nodes):
-            marks.show_rims(not self._reduced(marks))
-        self._inside.SetDraw(self.irregular_inside.shown and not self._reduced(self.irregular_inside))
-
-    def _reduced(self, marks: Marks) -> bool:
-        return self._fast and marks.count > _MANY
-
-    def _draw_edges(self, switches: Structure, points: np.ndarray) -> None:
+    def _draw_edges(self) -> None:
+        mesh, switches = self._frame.mesh, self._frame.look.structure
+        points = mesh.points
         if self._structure is None:
-            self._structure = find_structure(self._mesh)
+            self._structure = find_structure(mesh)
         structure = self._structure
         if switches.is_on("irregular"):
-            shown = self._shown(structure.interior, points)
+            shown = self._shown(structure.interior)
             edges, colours = structure.interior[shown], valence_colours(structure.interior_valence[shown])
             nodes = np.intersect1d(structure.nodes, edges)[:, None]
             ends = _rgb(IRREGULAR_NODE).repeat(len(nodes), axis=0)
-            opacity = min(1.0, (_MANY / max(1, len(edges))) ** 0.5)
+            opacity = min(1.0, (MANY / max(1, len(edges))) ** 0.5)
             curves = self._curves(edges)
             self.irregular.show(edges, colours, points, curves=curves)
             self.irregular_inside.show(edges, colours, points, opacity, curves)
             self._ends.show(nodes, ends, points)
             self._ends_inside.show(nodes, ends, points, opacity)
         if switches.is_on("boundary"):
-            shown = self._shown(structure.boundary, points)
+            shown = self._shown(structure.boundary)
             edges, colours = structure.boundary[shown], valence_colours(structure.boundary_valence[shown])
             self._boundary.show(edges, colours, points, curves=self._curves(edges))
         if switches.is_on("sharp"):
-            edges = structure.sharp[self._shown(structure.sharp, points)]
+            edges = structure.sharp[self._shown(structure.sharp)]
             self.sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points, curves=self._curves(edges))
 
     def _curves(self, edges: np.ndarray) -> CurvedEdges | None:
         """Return the curves of edges, (k, 2); None if edges are drawn straight."""
-        curved = self._mesh.mid_nodes is not None and self._look.structure.is_on("curved")
-        return CurvedEdges(self._mesh, edges) if curved else None
+        return CurvedEdges(self._frame.mesh, edges) if self._frame.curved else None
 
-    def _shown(self, edges: np.ndarray, points: np.ndarray) -> np.ndarray:
+    def _shown(self, edges: np.ndarray) -> np.ndarray:
         """Return True for edges, (k, 2), of shown hexes that a smooth cut leaves, (k,) bool."""
-        rows = self._mesh.topology.node_corners
-        mask = np.ones(len(edges), bool)
-        if self._keep is not None:
-            skin.edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep, mask)
-        return mask & points_kept_by_cut(self._look, points[edges].mean(axis=1))
+        mesh = self._frame.mesh
+        middles = mesh.points[edges].mean(axis=1)
+        return edges_of_kept(mesh, edges, self._keep) & remaining_points(middles, self._frame.look.cut)
 
-    def _draw_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
-        switches = self._look.structure
-        if switches.on.isdisjoint(("fixed", "free", "locked", "kinds")):
-            self.nodes.hide()
-            self._locked.hide()
-            return
-        places = self._faces.places(points)
-        if switches.is_on("kinds") and self._kinds is None:
-            mesh = self._positions.replace(pinned=self._mesh.pinned)
-            self._kinds = node_classes(mesh, FEATURE_ANGLE, departures_from_surface(mesh, FEATURE_ANGLE))
-        kinds = node_marks(self._mesh, points, figures, switches, self._kinds)[self._faces.nodes]
-        marked = (kinds > 0) & points_kept_by_cut(self._look, places)
-        for marks, nodes in ((self.nodes, marked & (kinds != _LOCKED)), (self._locked, marked & (kinds == _LOCKED))):
-            marks.show(np.flatnonzero(nodes)[:, None], _COLOURS[kinds[nodes]], places)
+    def _draw_nodes(self, faces: Faces) -> None:
+        frame, classes = self._frame, self._frame.kinds
+        if frame.look.structure.is_on("kinds") and classes is None:
+            if self._classes is None:
+                self._classes = node_classes(
+                    frame.mesh, FEATURE_ANGLE, departures_from_surface(frame.mesh, FEATURE_ANGLE)
+                )
+            classes = self._classes
+        places = faces.places(frame.mesh.points)
+        marks = node_marks(frame.mesh, frame.figures, frame.look.structure, classes)[faces.nodes]
+        marked = (marks > 0) & remaining_points(places, frame.look.cut)
+        for layer, nodes in ((self.nodes, marked & (marks != _LOCKED)), (self._locked, marked & (marks == _LOCKED))):
+            layer.show(np.flatnonzero(nodes)[:, None], _COLOURS[marks[nodes]], places)
 
     def _scale(self, *_: object) -> None:
         """Scale the marks to the size of hexes in the picture."""
-        shown = [marks for marks in (*self._edge_marks, self.nodes, self._locked) if marks.shown]
+        shown = [marks for marks in self._all if marks.shown]
         if shown:
             camera = self._front.GetActiveCamera()
             factor = min(1.0, pixels(self._front, self._spacing, np.array(camera.GetFocalPoint())) / self._full_size)
             for marks in shown:
-                least = 0.5 if marks is self.nodes else 0.0 if marks.count > _MANY else 1.0
+                least = 0.5 if marks is self.nodes else 0.0 if marks.count > MANY else 1.0
                 marks.scale(max(factor, least))
 
 
@@ -226,17 +176,14 @@ def valence_colours(valence: np.ndarray) -> np.ndarray:
     return table[np.minimum(valence, len(table) - 1)]
 
 
-def node_marks(
-    mesh: Mesh, points: np.ndarray, figures: ElementQuality, switches: Structure, kinds: np.ndarray | None = None
-) -> np.ndarray:
+def node_marks(mesh: Mesh, figures: ElementQuality, switches: Structure, kinds: np.ndarray | None = None) -> np.ndarray:
     """Return the mark of each node, (n,) uint8: a row number of `_COLOURS`, 0 for none.
 
     Parameters
     ----------
     mesh : Mesh
-    points : (n, 3) float64
     figures : ElementQuality
-        Quality of the mesh at `points`.
+        Quality of the mesh.
     switches : Structure
         Switches of the layers.
     kinds : (n,) uint8, optional
@@ -255,13 +202,8 @@ def node_marks(
     if switches.is_on("free"):
         marks[mesh.free] = _FREE
     if switches.is_on("locked") and figures.n_inverted:
-        marks[mesh.hexes[locked_hexes(points, mesh.hexes, mesh.fixed, figures.inverted)]] = _LOCKED
+        marks[mesh.hexes[locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)]] = _LOCKED
     return marks
-
-
-def points_kept_by_cut(look: Look, points: np.ndarray) -> np.ndarray | bool:
-    """Return True for points, (k, 3), that a smooth cut leaves; True if there is no smooth cut."""
-    return ~look.cut.hidden(points) if look.cut.smooth else True
 
 
 def _rgb(colour: str) -> np.ndarray:

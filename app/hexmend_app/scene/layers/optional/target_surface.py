@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
-from hexmend.mesh.mesh import Mesh, TargetSurface
+from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.flat_actor import offset_depth
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import TARGET
 
 #: Depth offset of the faces, in VTK's units, which hides them where they are on the boundary.
@@ -36,7 +36,6 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        self._target: TargetSurface | None = None
         offset_depth(self.actors[0].GetMapper(), polygons=_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
@@ -45,9 +44,8 @@ class TargetSurfaceLayer(TranslucentSurface, OptionalLayer):
         if target is None:
             self.hide()
             return
-        if target is not self._target:
-            self._target = target
-            self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), pv.PolyData())
+        if self.changes(target):
+            self.set_data(pv.PolyData.from_regular_faces(target.points, target.faces), edges=False)
         self.show()
 
     @classmethod

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_elements import jacobian_field
+from hexmend_app.scene.geometry.polygons import surface_of
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import FIELD, INVERTED, rgb
 
 #: Divisions of an edge of the hex in the grid of det J.
@@ -79,7 +79,7 @@ class NegativeJacobian:
         """Draw the region of a hex with these nodes, (8, 3) or (27, 3) as `jacobian_field` takes them."""
         positions, determinants = jacobian_field(nodes, _DIVISIONS)
         grid = _grid(positions, determinants)
-        surface = _surface(grid)
+        surface = surface_of(grid)
         self.region = grid.contour([0.0]).append_polydata(surface.clip_scalar(value=0.0))
         if self.region.n_cells:
             self.region = self.region.compute_normals(cell_normals=False, split_vertices=True, feature_angle=_CREASE)
@@ -109,14 +109,6 @@ def _grid(positions: np.ndarray, determinants: np.ndarray) -> pv.StructuredGrid:
     grid.point_data["det J"] = determinants.ravel(order="F")
     grid.set_active_scalars("det J")
     return grid
-
-
-def _surface(grid: pv.StructuredGrid) -> pv.PolyData:
-    """Return the faces of the hex, with det J."""
-    outside = vtkDataSetSurfaceFilter()
-    outside.SetInputData(grid)
-    outside.Update()
-    return pv.wrap(outside.GetOutput())
 
 
 def _edges_of(positions: np.ndarray) -> pv.PolyData:

@@ -7,8 +7,8 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.layers.flat_actor import flat_actor
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.theme.palette import DESCENT, OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, Role, rgb
 

@@ -6,16 +6,16 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES
-from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
 from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
 from hexmend.quality import corner_qualities
 from hexmend.quality.validity import Validity, certify
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_elements import edge_middles
+from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.selection.highlight import Highlight
 from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.state.mesh.inspection import NodeDetails
 from hexmend_app.state.node_step import NodeStep
 
@@ -50,8 +50,8 @@ class SelectionLayer:
         self.highlight = Highlight(pane, pixel_ratio)
         self._node_step = NodeStepMarks(pane, pixel_ratio)
         self.hexes = _NONE
-        self._with_corners = self._curved = False
-        self._mesh: Mesh | None = None
+        self._with_corners = False
+        self._frame: Frame | None = None
 
     @property
     def hex(self) -> int | None:
@@ -61,7 +61,7 @@ class SelectionLayer:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """Renderers in front of the mesh."""
-        return *self.negative.layers, self.highlight.layer, *self._node_step.layers
+        return *self.negative.layers, self.highlight.renderer, *self._node_step.layers
 
     @property
     def node_step(self) -> NodeStep | None:
@@ -73,54 +73,44 @@ class SelectionLayer:
         self._node_step.set_dark(dark)
         self.negative.set_dark(dark)
 
-    def set_mesh(self, mesh: Mesh) -> None:
-        """Replace the mesh and clear all marks."""
-        self.hide()
-        self._mesh = mesh
+    def draw(self, frame: Frame) -> None:
+        """Draw the marks of the look of a frame; marks of another mesh are cleared, others move with the nodes."""
+        last = self._frame
+        if not frame.is_of(last):
+            self.hide()
+            last = None
+        self._frame = frame
+        marked = frame.look.show.marked
+        if marked != (frozenset() if last is None else last.look.show.marked):
+            self.hexes, self._with_corners = np.array(sorted(marked), dtype=np.int64), False
+            self.highlight.show_node(None)
+        self._show_hexes()
+        self._node_step.move(frame.mesh.points)
 
     def hide(self) -> None:
-        """Clear all marks; none are drawn until `set_mesh` is called."""
-        self._mesh, self.hexes = None, _NONE
+        """Clear all marks; none are drawn until `draw` is called."""
+        self._frame, self.hexes = None, _NONE
         self._node_step.hide()
         self.highlight.hide()
         self.highlight.show_node(None)
         self.negative.hide()
 
-    def set_curved(self, curved: bool) -> None:
-        """Draw edges curved along the mid-nodes of the mesh, or straight."""
-        if curved != self._curved:
-            self._curved = curved
-            if self._mesh is not None:
-                self._show_hexes()
-
-    def move(self, mesh: Mesh) -> None:
-        """Move the marks with the nodes of the same mesh."""
-        self._mesh = mesh
-        self._show_hexes()
-        self._node_step.move(mesh.points)
-
     def select(self, h: int | None, corners: bool, node: NodeDetails | None) -> None:
         """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
-        if self._mesh is None:
+        if self._frame is None:
             return
         self.hexes, self._with_corners = _NONE if h is None else np.array([h]), corners
         self._show_hexes()
         if h is not None:
             self._mark_node(node)
 
-    def mark(self, hexes: np.ndarray) -> None:
-        """Mark hexes, (k,) int, without their nodes."""
-        if self._mesh is not None:
-            self.hexes, self._with_corners = np.asarray(hexes, dtype=np.int64), False
-            self.highlight.show_node(None)
-            self._show_hexes()
-
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw the step of a node instead of the marks of the selected hex; None removes it."""
-        if step is None or self._mesh is None:
+        if step is None or self._frame is None:
             self._node_step.hide()
         else:
-            self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)
+            mesh = self._frame.mesh
+            self._node_step.show(step, mesh.hexes[step.hexes], mesh.points)
         self._show_hexes()
 
     def _mark_node(self, node: NodeDetails | None) -> None:
@@ -129,7 +119,7 @@ class SelectionLayer:
             self.highlight.show_node(None)
             return
         steepness = float(np.linalg.norm(node.downhill))
-        corners = self._mesh.points[self._mesh.hexes[self.hex]]
+        corners = self._frame.mesh.points[self._frame.mesh.hexes[self.hex]]
         length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
         moves = node.kind == "free" and steepness > 0
         self.highlight.show_node(node.point, node.downhill * (length / steepness) if moves else None)
@@ -139,17 +129,18 @@ class SelectionLayer:
             self.highlight.hide()
             self.negative.hide()
             return
-        nodes, points = self._mesh.hexes[self.hexes], self._mesh.points
+        mesh = self._frame.mesh
+        nodes, points = mesh.hexes[self.hexes], mesh.points
         values = corner_qualities(points, nodes)[0] if self._with_corners else None
         middles = None
-        if self._curved:
-            middles = edge_middles(points, nodes[:, EDGES], self._mesh.mid_nodes[self.hexes[:, None], _MID_COLUMNS])
+        if self._frame.curved:
+            middles = edge_middles(points, nodes[:, EDGES], mesh.mid_nodes[self.hexes[:, None], _MID_COLUMNS])
         self.highlight.show(points[nodes], values, middles)
         self._show_negative()
 
     def _show_negative(self) -> None:
         """Draw where a single hex is invalid, by its own map: that of its mid-nodes, if it has some."""
-        mesh, hexes = self._mesh, self._mesh.hexes[self.hexes]
+        mesh, hexes = self._frame.mesh, self._frame.mesh.hexes[self.hexes]
         mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[self.hexes]
         if self.hex is None or certify(mesh.points, hexes, mid_nodes)[0] == Validity.VALID:
             self.negative.hide()

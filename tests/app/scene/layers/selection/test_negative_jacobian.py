@@ -7,7 +7,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.visibility import Show
 from tests.app.invalid_hexes import BENT, INSIDE, INVERTED, THREE, VALID
-from tests.app.scene.showing import show
+from tests.app.scene.showing import frame_of, show
 from tests.core.grids import placed
 
 
@@ -40,19 +40,20 @@ def test_the_region_of_a_curved_hex_is_that_of_its_own_map(viewport):
     assert (x.min(), x.max()) == pytest.approx((1.0, 121 / 120), abs=1e-3)  # the map turns back from 121/120 to 1
 
 
-def test_only_a_single_invalid_hex_has_a_region(selection):
+def test_only_a_single_invalid_hex_has_a_region(viewport, selection):
     for h, expected in ((INVERTED, True), (VALID, False), (INSIDE, True), (None, False)):
         selection.select(h, False, None)
         assert selection.negative.shown == expected
-    selection.mark(np.array([INVERTED, INSIDE]))
+    show(viewport, look=Look(show=Show(marked=frozenset({INVERTED, INSIDE}))))
     assert not selection.negative.shown
 
 
 def test_the_region_follows_the_nodes_and_goes_when_the_hex_is_valid(selection):
     selection.select(INSIDE, False, None)
-    selection.move(THREE.with_points(2 * THREE.points))
+    selection.draw(frame_of(THREE.with_points(2 * THREE.points)))
     assert np.asarray(selection.negative.region.points)[:, 2].max() == pytest.approx(4 / 3, abs=4e-3)
-    selection.move(placed(THREE, THREE.hexes[INSIDE], THREE.points[THREE.hexes[VALID]] + [6.0, 0.0, 0.0]))
+    moved = placed(THREE, THREE.hexes[INSIDE], THREE.points[THREE.hexes[VALID]] + [6.0, 0.0, 0.0])
+    selection.draw(frame_of(moved))
     assert not selection.negative.shown
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from typing import Any
+
 import numpy as np
 from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
 
-from hexmend_app.scene.views.frame import Frame
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.geometry.frame import Frame
 
 #: Extent of isolated hexes, as a fraction of that of the mesh, below which handles would fill the view.
 _DETAIL = 0.25
@@ -23,8 +26,8 @@ def isolates_detail(frame: Frame) -> bool:
     return len(places) > 0 and bool(np.linalg.norm(np.ptp(places, axis=0)) < _DETAIL * np.linalg.norm(whole))
 
 
-class Handles:
-    """Switches a widget on and off, and reports when it is dragged. Its drag ends where the pointer leaves the view.
+class Handles(ABC):
+    """Widget that sets a shape of a cut. Its drag ends where the pointer leaves the view.
 
     Attributes
     ----------
@@ -40,16 +43,46 @@ class Handles:
     def __init__(self, pane: Pane, widget: vtkAbstractWidget):
         self.widget = widget
         self._renderer = pane.renderer
-        self._dragging = False
+        self._dragging = self._placed = False
+        self._wanted: Any = None
         widget.SetInteractor(pane.window.GetInteractor())
         widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         widget.AddObserver("InteractionEvent", self._on_dragged)
 
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
+        """Set the bounds of the mesh, which scale the widget."""
+        self.widget.GetRepresentation().PlaceWidget(bounds)
+        self._placed = True
+
+    def set(self, shape: Any, shown: bool = True) -> None:
+        """Show a shape, or hide the widget if the shape is None or not `shown`.
+
+        The widget is not moved during a drag; otherwise a plane that snaps to an axis could not be rotated away from
+        it.
+        """
+        self._wanted = shape
+        on = shape is not None and shown and self._placed
+        if on and not self._dragging:
+            self._place()
+        self._switch(on)
+
     def close(self) -> None:
         """Detach the widget from the interactor."""
         self.widget.Off()
         self.widget.SetInteractor(None)
+
+    @abstractmethod
+    def set_dark(self, dark: bool) -> None:
+        """Use the colours of the dark or of the light theme."""
+
+    @abstractmethod
+    def _place(self) -> None:
+        """Move the widget to the wanted shape."""
+
+    @abstractmethod
+    def _announce(self) -> None:
+        """Report the dragged shape."""
 
     def _switch(self, on: bool) -> None:
         if not on and self._dragging:
@@ -63,6 +96,8 @@ class Handles:
 
     def _drag(self, on: bool) -> None:
         self._dragging = on
+        if not on and self._wanted is not None:
+            self._place()
 
     def _on_dragged(self, *_: object) -> None:
         self._announce()
@@ -74,7 +109,3 @@ class Handles:
     def _let_go(self) -> None:
         """End the drag; VTK ends it only at a release of the button."""
         self.widget.GetInteractor().InvokeEvent("LeftButtonReleaseEvent")
-
-    def _announce(self, *_: object) -> None:
-        """Report the dragged position."""
-        raise NotImplementedError

@@ -12,17 +12,12 @@ from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.colour.value_range import within
 from hexmend_app.scene.cutting.cut import remaining_hexes
 from hexmend_app.scene.cutting.hex_depths import HexDepths
-from hexmend_app.scene.cutting.moving_planes import MovingPlanes
-from hexmend_app.scene.views.frame import Frame, same_hexes
+from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from hexmend_app.state.mesh.metric_cache import metric_values
 
 
 class Filters:
     """Selects the hexes of one mesh that a look shows.
-
-    Attributes
-    ----------
-    planes : MovingPlanes
 
     Parameters
     ----------
@@ -32,7 +27,6 @@ class Filters:
     def __init__(self, mesh: Mesh):
         self._mesh = mesh
         self._known: dict[str, tuple[Hashable, np.ndarray | None]] = {}
-        self.planes = MovingPlanes(mesh)
         self._depths = HexDepths(mesh)
 
     def matches(self, mesh: Mesh) -> bool:
@@ -47,10 +41,6 @@ class Filters:
         """
         points, figures, topology, m = frame.mesh.points, frame.figures, self._mesh.topology, self._mesh.n_hexes
         cut, show, quality = frame.look.cut, frame.look.show, frame.look.show.by_quality
-        if not cut.by_planes:
-            self.planes.forget()
-        if cut.by_planes or not cut.active:
-            self._depths.forget()
         filters = (
             self._mask(
                 "cut",
@@ -71,11 +61,9 @@ class Filters:
 
     def hexes_kept_by_cut(self, points: np.ndarray, cut: Cut) -> np.ndarray:
         """Return True for hexes that a cut by whole hexes leaves at the given positions, (m,) bool."""
-        if cut.sphere is not None:
-            return self._depths.in_sphere(points, cut.sphere) != cut.notch
         if cut.depth is not None:
             return self._depths.in_range(points, cut.depth) != cut.notch
-        return self.planes.kept(points, cut.sides, cut.notch)
+        return ~cut.hidden(self._depths.centres(points))
 
     def cut_left(self, frame: Frame) -> np.ndarray | None:
         """Return True for the hexes that the cut by whole hexes has left, (m,) bool.

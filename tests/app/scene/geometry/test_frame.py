@@ -9,7 +9,7 @@ from hexmend import Mesh, measure
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.page import LineStyle
-from hexmend_app.scene.views.frame import Frame, same_hexes
+from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
@@ -32,7 +32,7 @@ def watched(off_screen, monkeypatch):
         (viewport.mesh_layer, "rebuild"),
         (viewport.mesh_layer, "move"),
         (viewport.colours, "measure"),
-        (viewport.overlay_layers.selection, "set_mesh"),
+        (viewport.overlay_layers.outline, "_set_mesh"),
     ):
         watch(part, name)
 
@@ -46,9 +46,9 @@ def watched(off_screen, monkeypatch):
 
 def test_another_mesh_is_drawn_from_scratch(watched):
     draw, _ = watched
-    assert draw(Frame(MESH, FIGURES)) == {"set_mesh", "rebuild", "measure"}
+    assert draw(Frame(MESH, FIGURES)) == {"set_mesh", "_set_mesh", "rebuild", "measure"}
     copy = Mesh(MESH.points, MESH.hexes)  # as when the same file is opened again
-    assert draw(Frame(copy, FIGURES)) == {"set_mesh", "rebuild", "measure"}
+    assert draw(Frame(copy, FIGURES)) == {"set_mesh", "_set_mesh", "rebuild", "measure"}
 
 
 def test_the_same_frame_costs_nothing(watched):

@@ -7,8 +7,8 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.picture.appearance import Measurement
+from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.layers.flat_actor import flat_actor, label_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 
 _LINE, _RIM = "#ffffff", "#11151c"
 #: Distance of the angle's text from its corner, as a fraction of the shorter line.

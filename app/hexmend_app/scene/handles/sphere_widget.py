@@ -10,9 +10,9 @@ from vtkmodules.vtkInteractionWidgets import vtkLineRepresentation, vtkLineWidge
 from vtkmodules.vtkRenderingCore import vtkPropCollection
 
 from hexmend_app.picture.cut_shapes import Sphere
-from hexmend_app.scene.cutting.handles import Handles
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.scene.layers.flat_actor import flat_actor, offset_depth
-from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
 _CORNERS = 96  # of a circle
@@ -31,8 +31,6 @@ class SphereWidget(Handles):
 
     def __init__(self, pane: Pane, moved: Callable[[tuple, float], None]):
         self._moved = moved
-        self._placed = False
-        self._sphere: Sphere | None = None
         self._direction = np.array([1.0, 0.0, 0.0])  # of the handle on the rim
         shape = vtkLineRepresentation()
         shape.SetPlaceFactor(1.0)
@@ -57,22 +55,13 @@ class SphereWidget(Handles):
             part.SetColor(active)
         self._shape.GetLineProperty().SetColor(active)
 
-    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
-        """Set the bounds of the mesh, which scale the handles."""
-        self._shape.PlaceWidget(bounds)
-        self._placed = True
-
-    def set(self, sphere: Sphere | None, shown: bool = True) -> None:
-        """Show a sphere, or hide it if it is None or not `shown`."""
-        self._sphere = sphere
-        on = sphere is not None and shown and self._placed
-        self._circles.SetVisibility(on)
-        if on:
-            self._circles.SetPosition(sphere.centre)
-            self._circles.SetScale(max(sphere.radius, 1e-300))
-            if not self._dragging:
-                self._place()
-        self._switch(on)
+    def set(self, shape: Sphere | None, shown: bool = True) -> None:
+        """Show a sphere, or hide it if it is None or not `shown`; the circles move during a drag too."""
+        super().set(shape, shown)
+        self._circles.SetVisibility(self.widget.GetEnabled())
+        if shape is not None:
+            self._circles.SetPosition(shape.centre)
+            self._circles.SetScale(max(shape.radius, 1e-300))
 
     def close(self) -> None:
         """Detach the widget from the interactor, and remove the circles."""
@@ -80,19 +69,14 @@ class SphereWidget(Handles):
         super().close()
 
     def _place(self) -> None:
-        centre = np.array(self._sphere.centre)
+        centre = np.array(self._wanted.centre)
         self._shape.SetPoint1WorldPosition(centre)
-        self._shape.SetPoint2WorldPosition(centre + self._sphere.radius * self._direction)
+        self._shape.SetPoint2WorldPosition(centre + self._wanted.radius * self._direction)
 
-    def _drag(self, on: bool) -> None:
-        super()._drag(on)
-        if not on and self._sphere is not None:
-            self._place()
-
-    def _announce(self, *_: object) -> None:
+    def _announce(self) -> None:
         centre, rim = (np.array(place()) for place in (self._shape.GetPoint1WorldPosition,
                                                        self._shape.GetPoint2WorldPosition))  # fmt: skip
-        before, radius = np.array(self._sphere.centre), self._sphere.radius
+        before, radius = np.array(self._wanted.centre), self._wanted.radius
         if np.allclose(centre, before, rtol=0, atol=1e-9 * (radius + np.abs(before).max())):
             radius = float(np.linalg.norm(rim - centre))
             if radius:

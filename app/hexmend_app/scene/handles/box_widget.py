@@ -8,9 +8,8 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
-from hexmend_app.picture.cut_shapes import Box
-from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
 
@@ -26,7 +25,6 @@ class BoxWidget(Handles):
 
     def __init__(self, pane: Pane, moved: Callable[[tuple, tuple], None]):
         self._moved = moved
-        self._bounds: np.ndarray | None = None
         shape = vtkBoxRepresentation()
         shape.SetPlaceFactor(1.0)
         shape.GetFaceProperty().SetOpacity(0)
@@ -50,13 +48,11 @@ class BoxWidget(Handles):
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
         """Set the bounds of the mesh, which limit the box."""
         self._bounds = np.array(bounds).reshape(3, 2)
+        super().set_bounds(bounds)
 
-    def set(self, box: Box | None, shown: bool = True) -> None:
-        """Show a box, or hide it if it is None or not `shown`."""
-        on = box is not None and shown and self._bounds is not None
-        if on and not self._dragging:
-            self._shape.PlaceWidget([end for pair in zip(box.low, box.high, strict=True) for end in pair])
-        self._switch(on)
+    def _place(self) -> None:
+        ends = zip(self._wanted.low, self._wanted.high, strict=True)
+        self._shape.PlaceWidget([end for pair in ends for end in pair])
 
     @property
     def corners(self) -> np.ndarray:
@@ -65,6 +61,6 @@ class BoxWidget(Handles):
         self._shape.GetPolyData(data)
         return np.array(data.GetBounds()).reshape(3, 2).T
 
-    def _announce(self, *_: object) -> None:
+    def _announce(self) -> None:
         low, high = self.corners.clip(self._bounds[:, 0], self._bounds[:, 1])
         self._moved(tuple(low.tolist()), tuple(high.tolist()))

@@ -7,10 +7,11 @@ import pyvista as pv
 from vtkmodules.vtkFiltersCore import vtkBinnedDecimation
 
 from hexmend_app.scene.colour.colouring import are_invalid
-from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.geometry.coloured_polygons import coloured, colours_of, hexes_of
 from hexmend_app.scene.geometry.edge_flags import edge_flags, normals_of, set_edge_flags, set_normals
-from hexmend_app.scene.layers.surface import SHADED, coloured, colours_of, hexes_of
+from hexmend_app.scene.geometry.polygons import Polygons
+from hexmend_app.scene.layers.surface import SHADED
 
 #: Number of faces above which a skin is decimated while the camera moves; they take 50 ms in software rendering.
 MANY = 30_000

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.camera.pane import Pane
+from hexmend_app.scene.handles.handles import Handles
 from hexmend_app.theme.palette import PLANE, PLANE_ACTIVE, PLANE_EDGE, rgb
 
 
@@ -24,8 +24,6 @@ class PlaneWidget(Handles):
 
     def __init__(self, pane: Pane, moved: Callable[[Plane], None]):
         self._moved = moved
-        self._placed = False
-        self._plane: Plane | None = None
         shape = vtkImplicitPlaneRepresentation()
         shape.SetPlaceFactor(1.08)
         shape.OutlineTranslationOff()
@@ -50,28 +48,9 @@ class PlaneWidget(Handles):
         self._shape.GetSelectedPlaneProperty().SetColor(selected)
         self._shape.GetNormalProperty().SetColor(selected)
 
-    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
-        """Set the bounds of the mesh; the plane is drawn slightly larger."""
-        self._shape.PlaceWidget(bounds)
-        self._placed = True
+    def _place(self) -> None:
+        self._shape.SetNormal(self._wanted.normal)
+        self._shape.SetOrigin(self._wanted.point)
 
-    def set(self, plane: Plane | None, shown: bool = True) -> None:
-        """Show a plane, or hide it if it is None or not `shown`.
-
-        The position of the widget is not changed during a drag; otherwise a plane that snaps to an axis could not be
-        rotated away from it.
-        """
-        self._plane = plane
-        on = plane is not None and shown and self._placed
-        if on and not self._dragging:
-            self._shape.SetNormal(plane.normal)
-            self._shape.SetOrigin(plane.point)
-        self._switch(on)
-
-    def _drag(self, on: bool) -> None:
-        super()._drag(on)
-        if not on:
-            self.set(self._plane)
-
-    def _announce(self, *_: object) -> None:
+    def _announce(self) -> None:
         self._moved(Plane(self._shape.GetNormal(), point=self._shape.GetOrigin()))

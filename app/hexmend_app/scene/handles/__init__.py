@@ -1,0 +1,1 @@
+"""Widgets of cuts that are dragged in a view."""
