@@ -14,6 +14,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import unpack_corners
 from hexmend.iteration import Outcome, Step, map_steps
+from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import AUTO
@@ -135,15 +136,15 @@ class Stages(ShapeStages):
 
 
 def _holding_overlaps(mesh: Mesh, points: np.ndarray, quality: ElementQuality) -> Mesh:
-    """Return the mesh at points (n, 3) with the nodes fixed of inverted corners that are so wherever they are."""
+    """Return the mesh at points (n, 3) with the nodes pinned of inverted corners that are so wherever they are."""
     overlapping = np.zeros(mesh.n_hexes, dtype=bool)
     overlapping[mesh.topology.overlapping_corners.items // 8] = True
     hopeless = quality.inverted & overlapping & ~curable_hexes(mesh, quality)
     corners = unpack_corners(inverted_corners(points, mesh.hexes, quality))[hopeless]
     if not corners.any():
         return mesh
-    fixed = mesh.fixed | mask(mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners], mesh.n_nodes)
-    return mesh.keeping_surface().with_points(points).with_fixed(fixed)
+    nodes = mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners].ravel()
+    return with_pinned(mesh.keeping_surface().with_points(points), nodes)
 
 
 def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, None, T]:
