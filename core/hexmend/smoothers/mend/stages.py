@@ -9,7 +9,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import unpack_corners
@@ -98,7 +97,7 @@ class Stages(ShapeStages):
         mesh = _holding_overlaps(mesh, points, quality)
         sliding = self.sliding_boundary(mesh)
         tolerances = tolerances_of(settings.surface_tolerance, settings.absolute_tolerance(mesh), mesh)
-        free = FreeBoundary(sliding, quality.inverted, tolerances, settings.first_norm_on(mesh))
+        free = FreeBoundary(sliding, quality.invalid, tolerances, settings.first_norm_on(mesh))
         is_sound, given = not quality.n_inverted, mesh.points if quality.n_inverted else points
         kept = quality if is_sound and (settings.balances or settings.maximises_jacobian) else None
         is_lower = _is_lower if settings.balances else _has_lower_jacobian
