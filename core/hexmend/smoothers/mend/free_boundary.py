@@ -198,7 +198,7 @@ class FreeBoundary:
             back &= ~out
 
     def untangle(
-        self, points: np.ndarray, locked: np.ndarray, epsilon: float, wider: bool, config: ReturnConfig = RETURN
+        self, points: np.ndarray, locked: np.ndarray, wider: bool, config: ReturnConfig = RETURN
     ) -> Generator[Step, None, tuple[np.ndarray, bool]]:
         """Untangle from points (n, 3) on, then return within the tolerances.
 
@@ -207,8 +207,6 @@ class FreeBoundary:
         points : (n, 3) float64
         locked : (m,) uint8
             Corners that fixed nodes lock.
-        epsilon : float
-            See `untangling.untangle`.
         wider : bool
             Tolerances may be exceeded where hexes stay inverted otherwise.
 
@@ -223,7 +221,7 @@ class FreeBoundary:
         for slope in config.slopes[:-1]:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
-            steps = untangle(start, shape, locked, epsilon, config.reductions)
+            steps = untangle(start, shape, locked, config.reductions)
             untangled = yield from map_steps(steps, lambda step: replace(step, infeasible=True))  # off the surface
             if untangled.left(locked, energy):
                 continue
