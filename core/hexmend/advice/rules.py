@@ -49,9 +49,6 @@ PERFECT = 0.99
 #: Least q(H) above which the worst hexes need no special treatment.
 GOOD = 0.9
 
-#: Highest p that is suggested.
-HIGH_P = 16.0
-
 Rule = Callable[[Situation], Suggestion | None]
 
 
@@ -220,34 +217,11 @@ def optimum(now: Situation) -> Suggestion | None:
 
 def improve_worst(now: Situation) -> Suggestion | None:
     """Suggest a method for the worst hexes of an optimised mesh."""
-    if not _worst_can_gain(now):
+    at_optimum = now.smoother.optimises and now.result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT)
+    if not at_optimum or not _sound_below(now, GOOD):
         return None
     text = "Run sequential GETMe: it improves the worst hexes one by one and hardly changes the mean."
     return Suggestion("GETMe, sequential", text, "q_min", SequentialGETMe())
-
-
-def raise_p(now: Situation) -> Suggestion | None:
-    """Suggest a higher p, which improves the worst hexes of an optimised mesh."""
-    if not _worst_can_gain(now):
-        return None
-    text = f"Run Mend with goal = shape and p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean."
-    stop = StoppingCriteria(max_iterations=max(500, now.stop.limit_of(now.smoother)))
-    smoother = Mend(**{**now.objective, "goal": "shape"}, max_p=HIGH_P)
-    return Suggestion(f"Mend, p up to {HIGH_P:g}", text, "q_min", smoother, stop)
-
-
-def guard(now: Situation) -> Suggestion | None:
-    """Suggest the guard if the least quality has fallen; the goal balanced needs none."""
-    before, after = now.result.before, now.result.after
-    if now.balances:
-        return None
-    if not _is_mend(now) or now.smoother.guard or before.inverted or after.inverted or after.q_min >= before.q_min:
-        return None
-    text = (
-        f"Undo the run, in which q min fell from {before.q_min:.3f} to {after.q_min:.3f}, and run Mend with guard: it "
-        "keeps the best iteration that lowers neither q min nor the minimum scaled Jacobian."
-    )
-    return Suggestion("Undo, then Mend with guard", text, "q_min", replace(now.smoother, guard=True), undo=True)
 
 
 def regularise(now: Situation) -> Suggestion | None:
@@ -273,10 +247,8 @@ RULES: tuple[Rule, ...] = (
     restart_longer,
     suggest_newton,
     tighten_tolerance,
-    guard,
     optimum,
     improve_worst,
-    raise_p,
 )
 
 
@@ -297,9 +269,3 @@ def _sound_below(now: Situation, quality: float) -> bool:
 
 def _still_optimises(now: Situation) -> bool:
     return now.cut_short and now.smoother.optimises and now.improving
-
-
-def _worst_can_gain(now: Situation) -> bool:
-    """Return True at an optimum of low p whose worst hex is not good."""
-    at_optimum = now.smoother.optimises and now.result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT)
-    return at_optimum and _sound_below(now, GOOD) and now.p < HIGH_P

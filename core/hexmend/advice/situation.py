@@ -71,11 +71,6 @@ class Situation:
         return self.result.outcome.is_cut_short
 
     @property
-    def p(self) -> float:
-        """The exponent of the objective."""
-        return self.smoother.norm.p
-
-    @property
     def objective(self) -> dict[str, float | str]:
         """The method's parameters goal, and p and offset of the objective, if it has them."""
         return {name: value for name, value in self.smoother.values().items() if name in ("goal", "p", "offset")}

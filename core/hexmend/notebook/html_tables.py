@@ -8,9 +8,7 @@ from __future__ import annotations
 from base64 import b64encode
 from html import escape
 
-from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Result
-from hexmend.iteration.figures import HISTORY
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, summarise
 from hexmend.quantity import Quantity
@@ -45,7 +43,7 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
         f"<tr>{_head(one)}{_cell(one, result.before)}{_cell(one, result.after, one.key in result.worse)}</tr>"
         for one in SUMMARY_QUANTITIES.values()
     ]
-    table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
+    table = f"<table>{head}{''.join(rows)}</table>"
     return _page(_title(result.mesh), picture, problem, table, f'<p style="{_MESSAGE}">{escape(result.message)}</p>')
 
 
@@ -62,30 +60,11 @@ def _page(title: str, picture: bytes | None, problem: str, content: str, message
     return f'<div><strong>{title}</strong>{message}<div style="{_ROW}">{image}<div>{content}</div></div>{note}</div>'
 
 
-def _head(figure: Quantity, label: str | None = None) -> str:
-    return f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(label or figure.label)}</span></th>'
+def _head(figure: Quantity) -> str:
+    return f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(figure.label)}</span></th>'
 
 
 def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
     value = getattr(summary, figure.key)
     text = escape(figure.text(value)) if value is not None else "∞"
     return f'<td style="{_WORSE}">{text}</td>' if worse else f"<td>{text}</td>"
-
-
-def _own_objective(result: Result) -> str:
-    """Return a row with the method's objective, from the history, if the summaries have another one.
-
-    Formulas follow the values if they differ before and after.
-    """
-    before, after = result.history[0], result.history[result.kept]
-    if all(row["objective_formula"] == SQUARES.formula for row in result.history):
-        return ""
-    figure = HISTORY["objective"]
-    formulas = [str(row["objective_formula"]) for row in (before, after)]
-    same = formulas[0] == formulas[1]
-    label = f"{figure.label} {formulas[0]}" if same else f"{figure.label} of the method"
-    cells = ""
-    for row, formula in zip((before, after), formulas, strict=True):
-        text = "∞" if row["objective"] is None else figure.text(row["objective"])
-        cells += f"<td>{escape(text if same else f'{text} ({formula})')}</td>"
-    return f"<tr>{_head(figure, label)}{cells}</tr>"

@@ -27,9 +27,9 @@ def check_method(smoother: Smoother) -> None:
     """Raise `ParameterError` for a method that several ranks cannot run."""
     if not isinstance(smoother, Mend):
         raise ParameterError(f"{smoother.title} does not run on several MPI ranks yet, mend does: {_REMEDY}")
-    if smoother.goal not in ("shape", "balanced") or smoother.guard:
-        which = "guard = true" if smoother.guard else f"goal = {smoother.goal}"
-        raise ParameterError(f"{which} does not run on several MPI ranks yet, goals shape and balanced do: {_REMEDY}")
+    if smoother.goal not in ("shape", "balanced"):
+        words = f"goal = {smoother.goal} does not run on several MPI ranks yet, goals shape and balanced do"
+        raise ParameterError(f"{words}: {_REMEDY}")
 
 
 def check_mesh(mesh: Mesh) -> None:
@@ -64,7 +64,7 @@ class RankStages(Stages):
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
         sliding, balances, given = self._slides, self.settings.balances, mesh.points
-        energy = self._energy(mesh, self.settings.first_norm_on(mesh))
+        energy = self._energy(mesh, self.settings.norm_on(mesh))
         shape = yield from self._shape(mesh, energy, balances or sliding is not None)
         if not balances and sliding is None:
             self.unsound = self._is_invalid_inside(shape.points)
@@ -79,7 +79,7 @@ class RankStages(Stages):
             if balances:
                 fixed = yield from reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
                 given, kept = fixed.points, measure(fixed.points, mesh.hexes)
-            norm = self.settings.first_norm_on(sliding.mesh)
+            norm = self.settings.norm_on(sliding.mesh)
             energy = MeshEnergy(sliding.mesh, norm, motion=sliding.motion)
             steps = self._shape(sliding.with_points(shape.points), energy, True)
             shape = yield from keeping(kept, mesh.hexes, steps, self._is_lower)

@@ -216,6 +216,14 @@ def test_a_run_that_leaves_such_hexes_inverted_says_that_no_position_makes_them_
     )
 
 
+@pytest.mark.slow
+def test_with_a_boundary_that_slides_one_hex_stays_invalid_at_each_such_node(real_mesh):
+    mesh = io.read(real_mesh("sd_kitten.mesh"))
+    result = smooth(mesh, "mend", boundary="slide")
+    assert result.after.invalid == nodes_without_valid_position(mesh).size
+    assert result.after.scaled_jacobian_min >= result.before.scaled_jacobian_min
+
+
 # Nodes at which the boundary leaves no space for the hexes of a layer.
 
 

@@ -54,38 +54,6 @@ def test_a_result_is_a_table_of_before_and_after(result):
     ]
 
 
-def objective_rows(result):
-    rows = ET.fromstring(of_result(result)).iter("tr")
-    found = [row for row in rows if "".join(row.find("th").itertext()).startswith("objective")]
-    return {"".join(row.find("th").itertext()): [cell.text for cell in row.iter("td")] for row in found}
-
-
-def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
-    mesh = hx.gallery.make("five-side", size=300)
-    stop = StoppingCriteria(max_iterations=3, keep_last=True)
-    usual = hx.smooth(mesh, "local-sd", stop)
-    text = SUMMARY_QUANTITIES["objective"].text
-    assert objective_rows(usual) == {"objective Σ η²": [text(usual.before.objective), text(usual.after.objective)]}
-    other = hx.smooth(mesh, hx.LocalSteepestDescent(p=4.0, offset=0.0), stop)
-    assert objective_rows(other) == {
-        "objective Σ η²": [text(other.before.objective), text(other.after.objective)],
-        "objective Σ η⁴, offset 0": [text(other.history[k]["objective"]) for k in (0, 3)],
-    }
-
-
-def test_objectives_before_and_after_that_differ_are_named():
-    mesh = hx.gallery.make("five-side", size=300)
-    stages = [
-        hx.Stage(method, StoppingCriteria(max_iterations=2))
-        for method in (hx.LocalSteepestDescent(), hx.LocalSteepestDescent(p=4.0))
-    ]
-    result = hx.smooth(mesh, hx.Recipe.of(*stages))
-    assert result.kept == 4
-    cells = objective_rows(result)["objective of the method"]
-    values = [SUMMARY_QUANTITIES["objective"].text(result.history[k]["objective"]) for k in (0, 4)]
-    assert cells == [f"{values[0]} (Σ η²)", f"{values[1]} (Σ η⁴)"]
-
-
 def test_what_is_worse_is_red(mesh):
     worse = hx.smooth(mesh, "laplacian", StoppingCriteria(max_iterations=1, keep_last=True))
     red = sum("#b3261e" in (cell.get("style") or "") for cell in ET.fromstring(of_result(worse)).iter("td"))

@@ -123,7 +123,6 @@ def test_targets_are_divided_too(tangled, tmp_path):
 
 
 IMPOSSIBLE_ON_RANKS = [
-    (["--set", "guard=true"], "guard = true does not run on several MPI ranks yet"),
     (["--method", "laplacian"], "Laplacian does not run on several MPI ranks yet"),
     (["--goal", "scaled-jacobian"], "goal = scaled-jacobian does not run on several MPI ranks yet"),
     (["--history", "h.csv"], "--history does not work on several MPI ranks yet"),

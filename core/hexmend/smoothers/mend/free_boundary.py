@@ -68,7 +68,7 @@ class FreeBoundary:
     Parameters
     ----------
     sliding : SlidingBoundary
-    inverted : (m,) bool
+    invalid : (m,) bool
         Hexes whose boundary nodes may be anywhere near the surface, whatever their curve or patch.
     tolerances : FitTolerances
     norm : ObjectiveNorm
@@ -88,14 +88,14 @@ class FreeBoundary:
     def __init__(
         self,
         sliding: SlidingBoundary,
-        inverted: np.ndarray,
+        invalid: np.ndarray,
         tolerances: FitTolerances,
         norm: ObjectiveNorm,
         leaving: np.ndarray | None = None,
     ):
         mesh, moves = sliding.mesh, tolerances.patches > 0
-        self.sliding, self._given = sliding, (inverted, tolerances, norm)
-        reaches, near = mask(mesh.hexes[inverted], mesh.n_nodes), tolerances.patches < NO_LIMIT
+        self.sliding, self._given = sliding, (invalid, tolerances, norm)
+        reaches, near = mask(mesh.hexes[invalid], mesh.n_nodes), tolerances.patches < NO_LIMIT
         if leaving is None:  # without a limit corners and flat patches would dissolve
             leaving = sliding.leavable & (near | reaches)
         leaving = leaving & moves
@@ -114,10 +114,10 @@ class FreeBoundary:
 
         Returns the boundary in which these are exact and the others free, and the points.
         """
-        sliding, (inverted, tolerances, norm) = self.sliding, self._given
+        sliding, (invalid, tolerances, norm) = self.sliding, self._given
         exact = self.free & ~mask(sliding.curved_nodes, self.mesh.n_nodes)
         found, back = self.snapped(points, jacobian, quality, exact)
-        narrower = FreeBoundary(sliding, inverted, tolerances, norm, exact & ~back)
+        narrower = FreeBoundary(sliding, invalid, tolerances, norm, exact & ~back)
         return narrower.allowing(found, everywhere=True), found
 
     def _with(self, fit: SurfaceFit, omitted: np.ndarray) -> MeshEnergy:
@@ -198,7 +198,7 @@ class FreeBoundary:
             back &= ~out
 
     def untangle(
-        self, points: np.ndarray, locked: np.ndarray, epsilon: float, wider: bool, config: ReturnConfig = RETURN
+        self, points: np.ndarray, locked: np.ndarray, wider: bool, config: ReturnConfig = RETURN
     ) -> Generator[Step, None, tuple[np.ndarray, bool]]:
         """Untangle from points (n, 3) on, then return within the tolerances.
 
@@ -207,8 +207,6 @@ class FreeBoundary:
         points : (n, 3) float64
         locked : (m,) uint8
             Corners that fixed nodes lock.
-        epsilon : float
-            See `untangling.untangle`.
         wider : bool
             Tolerances may be exceeded where hexes stay inverted otherwise.
 
@@ -223,7 +221,7 @@ class FreeBoundary:
         for slope in config.slopes[:-1]:
             energy = self._with(self.fit.without_diagonals().with_weights(slope=slope), locked)
             shape = energy.without_size()
-            steps = untangle(start, shape, locked, epsilon, config.reductions)
+            steps = untangle(start, shape, locked, config.reductions)
             untangled = yield from map_steps(steps, lambda step: replace(step, infeasible=True))  # off the surface
             if untangled.left(locked, energy):
                 continue

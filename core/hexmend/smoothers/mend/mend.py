@@ -42,10 +42,10 @@ class Mend(MendSettings):
 
         First comes whether the minimum scaled Jacobian is lower than at the start while hexes are inverted, then
         whether more hexes are invalid than there, then the numbers of inverted and of invalid ones, then whether a
-        guarded figure is lower than at the start, then whether the objective of the sound hexes, with the highest p
-        that was asked for, is higher. With a target a fall counts from `TARGET_FALL` on: as given, a mesh
-        may have better corners than hexes of the lengths that are asked for. The goal balanced guards the figures of
-        all hexes but those that are inverted at the start and still are.
+        figure that counts for the goal is lower than at the start, then whether the objective of the sound hexes is
+        higher. With a target a fall counts from `TARGET_FALL` on: as given, a mesh may have better corners than hexes
+        of the lengths that are asked for. The goal balanced counts the figures of all hexes but those that are inverted
+        at the start and still are.
 
         Parameters
         ----------
@@ -65,16 +65,12 @@ class Mend(MendSettings):
         counts = fell, invalid > ranks.sum(start.n_invalid), inverted, invalid
         if self.balances:
             return *counts, self._lowers(ranks, start, now)
-        share = 1 - TARGET_FALL if now.against_target and not self.guard else 1.0
-        fallen = (
-            ranks.least(_least(now.q)) < share * ranks.least(_least(start.q)),
-            after < share * before,
-        )
-        harmed = any(fallen) if self.guard else all(fallen)
+        share = 1 - TARGET_FALL if now.against_target else 1.0
         if self.maximises_jacobian:
-            return *counts, harmed or after < share * before - WORSE_BY, counted_steps(after)
+            return *counts, after < share * before - WORSE_BY, counted_steps(after)
         if self.goal == "time-step":  # the time step itself comes last, see `rank_by_points`
-            return *counts, harmed if self.guard else False
+            return counts
+        harmed = after < share * before and ranks.least(_least(now.q)) < share * ranks.least(_least(start.q))
         objectives = [ranks.sum(objective_of_sound(of, self.norm)) for of in (start, now)]
         return *counts, harmed, objectives[1] > objectives[0]
 
@@ -100,11 +96,9 @@ class Mend(MendSettings):
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.balances or self.maximises_minimum or {"inverted", "invalid"} & set(worse):
+        if self.goal != "shape" or not worse or {"inverted", "invalid"} & set(worse):
             return ""
-        if "scaled_jacobian" in worse:
-            return "With goal=scaled-jacobian the minimum scaled Jacobian rises instead; with guard=true neither falls."
-        return "With guard=true it does not fall." if worse else ""
+        return "With goal=balanced neither q min, q mean nor the minimum scaled Jacobian falls."
 
 
 def _least(values: np.ndarray) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
 
 import numpy as np
 
@@ -55,29 +54,27 @@ class ShapeStages:
             decision = omission_message(energy.count(locked), energy.count(omitted & ~locked))
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)
-        steps = optimise_shape(energy, points, self.settings.p_limit, intermediate)
+        steps = optimise_shape(energy, points, intermediate)
         del mesh, start, untangled, points  # large meshes have no memory for what is no longer needed
         return (yield from steps)
 
     def coarse_shape(self, mesh: Mesh, energy: MeshEnergy) -> Generator[Step, None, np.ndarray]:
         """Go to the optimum of shape of the coarse mesh behind a refinement, with the first p."""
-        stages = ShapeStages(replace(self.settings, max_p=1.0), self._nested.of_coarse_mesh())
+        stages = ShapeStages(self.settings, self._nested.of_coarse_mesh())
         return (yield from stages._shape(mesh, energy, True)).points
 
     def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
-        return (yield from untangle(mesh, energy.without_size(), locked, self.settings.initial_epsilon))
+        return (yield from untangle(mesh, energy.without_size(), locked))
 
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Go from points (n, 3), or a coarse optimum, to the optimum of shape without inverted corners there."""
         points = yield from nested_start(energy.mesh.with_points(points), energy, self.coarse_shape, self._nested)
         inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         energy = energy.with_objective(energy.norm, inverted)
-        return (yield from optimise_shape(energy, points, self.settings.p_limit, True))
+        return (yield from optimise_shape(energy, points, True))
 
     def _sound(self, energy: MeshEnergy, points: np.ndarray) -> MeshEnergy:
         """Return an energy that floors are added to, without the corners that are inverted at points (n, 3)."""
         inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
         mean = ObjectiveNorm(1.0, self.settings.offset)
-        return energy.with_objective(
-            self.settings.first_norm_on(energy.mesh) if self.settings.balances else mean, inverted
-        )
+        return energy.with_objective(self.settings.norm_on(energy.mesh) if self.settings.balances else mean, inverted)

@@ -9,11 +9,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import unpack_corners
 from hexmend.iteration import Outcome, Step, map_steps
+from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import AUTO
@@ -47,11 +47,11 @@ class Stages(ShapeStages):
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
             yield Step(mesh.points, intermediate=True, quality=measure(mesh.points, mesh.hexes), begins=True)
-        energy = self._energy(mesh, self.settings.first_norm_on(mesh))
+        energy = self._energy(mesh, self.settings.norm_on(mesh))
         steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         del energy
         shape = yield from steps if intermediate else until_valid(steps, mesh)
-        energy = self._sound(self._energy(mesh, self.settings.first_norm_on(mesh)), shape.points)
+        energy = self._sound(self._energy(mesh, self.settings.norm_on(mesh)), shape.points)
         if not intermediate:
             yield from certify_hexes(repeat(energy), shape.points)
             return shape.outcome
@@ -97,14 +97,14 @@ class Stages(ShapeStages):
         mesh = _holding_overlaps(mesh, points, quality)
         sliding = self.sliding_boundary(mesh)
         tolerances = tolerances_of(settings.surface_tolerance, settings.absolute_tolerance(mesh), mesh)
-        free = FreeBoundary(sliding, quality.inverted, tolerances, settings.first_norm_on(mesh))
+        free = FreeBoundary(sliding, quality.invalid, tolerances, settings.norm_on(mesh))
         is_sound, given = not quality.n_inverted, mesh.points if quality.n_inverted else points
         kept = quality if is_sound and (settings.balances or settings.maximises_jacobian) else None
         is_lower = _is_lower if settings.balances else _has_lower_jacobian
         wider = settings.surface_tolerance == AUTO
         if not is_sound:
             locked = locked_corners(free.mesh, quality)
-            points, is_within = yield from free.untangle(points, locked, settings.initial_epsilon, wider)
+            points, is_within = yield from free.untangle(points, locked, wider)
             if not is_within:
                 return repeat(self._sound(free.fitted, points)), fixed._replace(points=points)
             free = free.allowing(points, everywhere=wider)
@@ -113,7 +113,7 @@ class Stages(ShapeStages):
         starts = [points]
         if is_sound:  # the shape improves faster along the surface itself
             width = max(tolerances.patches, 1e-9) * mesh.mean_edge_length
-            energy = MeshEnergy.on_surface(sliding.with_band(width), settings.first_norm_on(mesh))
+            energy = MeshEnergy.on_surface(sliding.with_band(width), settings.norm_on(mesh))
         if not (is_sound and settings.maximises_jacobian):
             shape = yield from keeping(kept, hexes, self._optimum(energy, points), is_lower)
             starts.append(shape.points)
@@ -135,15 +135,15 @@ class Stages(ShapeStages):
 
 
 def _holding_overlaps(mesh: Mesh, points: np.ndarray, quality: ElementQuality) -> Mesh:
-    """Return the mesh at points (n, 3) with the nodes fixed of inverted corners that are so wherever they are."""
+    """Return the mesh at points (n, 3) with the nodes pinned of inverted corners that are so wherever they are."""
     overlapping = np.zeros(mesh.n_hexes, dtype=bool)
     overlapping[mesh.topology.overlapping_corners.items // 8] = True
     hopeless = quality.inverted & overlapping & ~curable_hexes(mesh, quality)
     corners = unpack_corners(inverted_corners(points, mesh.hexes, quality))[hopeless]
     if not corners.any():
         return mesh
-    fixed = mesh.fixed | mask(mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners], mesh.n_nodes)
-    return mesh.keeping_surface().with_points(points).with_fixed(fixed)
+    nodes = mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners].ravel()
+    return with_pinned(mesh.keeping_surface().with_points(points), nodes)
 
 
 def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, None, T]:

@@ -19,6 +19,8 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import corners_of_inverted, count_inverted, recentre_far_nodes
 from hexmend.smoothers.mend.newton_steps import newton_step
 
+#: First epsilon, in cubes of the mean edge length, or with a target in the volumes that hexes are to have.
+EPSILON = 0.03
 #: Factors of epsilon from one step to the next with a boundary that is fixed: what a step can follow, and one that is
 #: damped, and so shorter.
 REDUCTIONS = 0.9, 0.975
@@ -84,7 +86,6 @@ def untangle(
     mesh: Mesh,
     energy: MeshEnergy,
     locked: np.ndarray,
-    epsilon: float,
     reductions: tuple[float, float] = REDUCTIONS,
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
@@ -97,8 +98,6 @@ def untangle(
         Of this mesh, the locked corners omitted.
     locked : (m,) uint8
         Corners that fixed nodes lock in inversion.
-    epsilon : float
-        The first one, in cubes of the mean edge length, or with a target in the volumes that hexes are to have.
     reductions : (float, float)
         Factors of epsilon after a step that is not damped, and after one that is.
 
@@ -115,7 +114,7 @@ def untangle(
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     del points, quality  # large meshes have no memory for what is no longer needed
-    fewest, idle, direction = now.inverted, 0, TruncatedNewton()
+    fewest, idle, epsilon, direction = now.inverted, 0, EPSILON, TruncatedNewton()
     while now.inverted and idle < PATIENCE:
         delta = min(MAX_DELTA, float(np.sqrt(epsilon * (epsilon - min(now.worst, 0.0)))))
         descent = newton_step(energy, now.x, delta, direction)

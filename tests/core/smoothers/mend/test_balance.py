@@ -55,10 +55,6 @@ def test_it_is_the_default_and_p_follows_the_goal():
     assert Mend().goal == "balanced"
     assert [Mend(goal=goal).norm.p for goal in ("balanced", "shape", "scaled-jacobian")] == [1, 2, 2]
     assert [Mend(goal=goal, p=4.0).norm.p for goal in ("balanced", "shape")] == [4, 4]
-    assert Mend(goal="shape", max_p=16.0).norm.p == 16
-    assert Mend(max_p=16.0, guard=True).norm.p == 1
-    assert "max_p and guard have no effect with goal = balanced" in Mend(max_p=16.0, guard=True).ignored_parameters
-    assert "guard" not in Mend(goal="shape", guard=True).ignored_parameters
 
 
 @given(

@@ -50,7 +50,7 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
     assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
 
 
-@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"goal": "shape", "max_p": 16.0}], ids=str)
+@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"goal": "shape"}], ids=str)
 @pytest.mark.parametrize(("p", "offset", "scramble"), [(1.0, 0.0, 0.3), (2.0, 1.0, 0.0), (4.0, 1.0, 0.3)])
 def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
@@ -63,19 +63,15 @@ def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     amplitude=st.floats(0.05, 4),
     iterations=st.integers(0, 12),
     p=st.sampled_from([1.0, 2.0, 4.0]),
-    guard=st.booleans(),
 )
-def test_wherever_it_is_stopped_the_mesh_is_no_worse(seed, amplitude, iterations, p, guard):
+def test_wherever_it_is_stopped_the_mesh_is_no_worse(seed, amplitude, iterations, p):
     mesh = scrambled(grid(4), amplitude, seed)
-    result = smooth(mesh, Mend(goal="shape", p=p, guard=guard), StoppingCriteria(max_iterations=iterations))
+    result = smooth(mesh, Mend(goal="shape", p=p), StoppingCriteria(max_iterations=iterations))
     before, after = (measure(one.points, mesh.hexes) for one in (mesh, result.mesh))
     assert after.n_inverted <= before.n_inverted
     assert result.after.inverted == after.n_inverted
     if after.n_inverted == before.n_inverted == 0:
         assert (after.eta**p).sum() <= (before.eta**p).sum()
-    if guard and after.n_inverted == before.n_inverted:
-        assert after.q.min() >= before.q.min()
-        assert after.scaled_jacobian.min() >= before.scaled_jacobian.min()
 
 
 @pytest.mark.parametrize("scramble", [0.0, 1.5])
@@ -104,16 +100,10 @@ def test_steps_of_untangling_soften_the_barrier_less_and_less():
 
 def test_higher_p_lifts_the_worst_hex():
     mesh = make("bridge-sharp", size=864)
-    plain, raised = (
-        smooth(mesh, Mend(goal="shape", max_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0)
-    )
+    plain, raised = (smooth(mesh, Mend(goal="shape", p=p), StoppingCriteria(max_iterations=500)) for p in (2.0, 16.0))
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01
     assert raised.after.q_mean < plain.after.q_mean
-    again = smooth(
-        plain.mesh, Mend(goal="shape", max_p=16.0), StoppingCriteria(max_iterations=500)
-    )  # from the optimum of the lower p
-    assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
 def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():

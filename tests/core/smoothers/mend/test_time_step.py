@@ -44,15 +44,14 @@ def test_a_block_that_is_at_its_optimum_stays():
     st.floats(0, 0.8),
     st.sampled_from([1, 4, 12, 60]),
     st.sampled_from(["fixed", "slide"]),
-    st.booleans(),
     st.integers(0, 2**32 - 1),
 )
-def test_it_does_no_harm_wherever_it_is_stopped(amplitude, iterations, boundary, guard, seed):
+def test_it_does_no_harm_wherever_it_is_stopped(amplitude, iterations, boundary, seed):
     mesh = graded(3, amplitude, seed)
-    method = Mend(goal="time-step", boundary=boundary, guard=guard)
+    method = Mend(goal="time-step", boundary=boundary)
     result = smooth(mesh, method, StoppingCriteria(max_iterations=iterations))
     assert result.after.inverted <= result.before.inverted
-    if result.after.inverted == result.before.inverted and not guard:
+    if result.after.inverted == result.before.inverted:
         assert step_of(result.mesh) >= step_of(mesh)
     if boundary == "fixed":
         np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
