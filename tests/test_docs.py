@@ -18,7 +18,7 @@ from hexmend.run import recipe
 from hexmend_app.cli import view
 from hexmend_app.formats.session import session_file
 from hexmend_app.picture import scene
-from hexmend_app.scene.film.film_page import FilmPage
+from hexmend_app.scene.page import page_captions
 from tests.examples import blocks, run_page
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -41,13 +41,13 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     make, draw = block.replace("\\\n", " ").splitlines()
     assert main(shlex.split(make)[1:]) == 0
     captions = []
-    compose = FilmPage.compose
+    draw_captions = page_captions.draw_captions
 
-    def record(self, picture, texts, viewport, initial):
-        captions.append((initial.captions[0], texts[0]))
-        return compose(self, picture, texts, viewport, initial)
+    def record(drawing, layout):
+        captions.append([(mesh.name, mesh.text) for mesh in layout.meshes])
+        draw_captions(drawing, layout)
 
-    monkeypatch.setattr(FilmPage, "compose", record)
+    monkeypatch.setattr("hexmend_app.scene.page.page_renderer.draw_captions", record)
     assert main([*shlex.split(draw)[1:], "--frames", "2"]) == 0
     mesh = io.read("five-side.vtu")
     after = smooth(mesh)
@@ -55,8 +55,8 @@ def test_the_animation_of_the_readme_says_the_truth(tmp_path, monkeypatch):
     first = f"q min {after.before.q_min:.4f}, {after.before.inverted:,} inverted, {inside} invalid inside"
     last = f"q min {after.after.q_min:.4f}, none invalid"
     count = after.iterations
-    assert captions[0] == (f"Before: {first}", f"Mend, iteration 0 of {count}: {first}")
-    assert captions[-1] == (f"Before: {first}", f"Mend, iteration {count} of {count}: {last}")
+    assert captions[0] == [("Before", first), (f"iteration 0 of {count}", first)]
+    assert captions[-1] == [("Before", first), (f"iteration {count} of {count}", last)]
 
 
 @pytest.mark.slow

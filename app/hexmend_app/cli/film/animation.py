@@ -16,8 +16,8 @@ from hexmend_app.cli.scene_options import with_options
 from hexmend_app.picture import Scene
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.scene.film.film import format_of, pictures, write_film
-from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
+from hexmend_app.scene.film.film_files import format_of, write_film
+from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames, pictures
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import RecordedIteration
@@ -25,14 +25,14 @@ from hexmend_app.state.mesh.run_record import RecordedIteration
 
 def run(args: argparse.Namespace) -> int:
     """Run the method, draw the frames and write the animation."""
-    size, scene, path = parse_size(args.size), with_options(args, Scene()), Path(args.output)
+    path, size = Path(args.output), parse_size(args.size)
+    scene = replace(with_options(args, Scene(), page={"pixels": size}), movement=_traces(args))
     max_frames, rate = parse_integer(args.frames, "--frames", 2, 1000), parse_integer(args.rate, "--rate", 1, 50)
     method, stop = method_and_limits(args)
     format_of(path)  # raises for an unknown suffix before the run
     check_writable(path)
     mesh = with_surface(args, read(args.mesh), method)
     check_memory(args, [method], mesh)
-    look = replace(scene.look(mesh), movement=_traces(args))
     run, history = iterate(mesh, method, stop), History()
     record = history.begin(method.title, State.of(mesh))
     history.add(record, run.start)
@@ -41,9 +41,7 @@ def run(args: argparse.Namespace) -> int:
     start = ReferenceState(mesh.points, run.start.quality, "before the run")
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
     states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
-    frames = pictures(
-        states, look, size, view=scene.camera.direction, movement=movement, chart=args.histogram, before=args.before
-    )
+    frames = pictures(states, scene, movement=movement, histogram=args.histogram, before=args.before)
     drawn = [*show_count(frames, len(numbers), "drawing frames")]
     write_film(path, drawn, rate, poster=args.poster)
     result = run.result()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,6 @@ from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.picture import Page
-from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_film
@@ -78,7 +76,8 @@ class FeatureFilm(Feature):
 
     def film(self, path: Path, choice: FilmChoice) -> None:
         """Make a film of the current run; the file is written after the last frame is drawn."""
-        from hexmend_app.scene.film.film import format_of, pictures
+        from hexmend_app.scene.film.film_files import format_of
+        from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames, pictures
 
         self.cancel()
         record, history = self.session.timeline.record, self.session.history
@@ -88,21 +87,13 @@ class FeatureFilm(Feature):
             self.host.messages.show_error(tr("Film not saved"), str(error))
             return
         numbers = chosen_iterations(history, record, choice.frames)
-        view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
         now = self.session.document.now
         states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
-        scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
+        scene = self.canvas.scene(Page(pixels=size))
         self._path, self._record, self._rate = path, record, choice.rate
-        frames = pictures(
-            states,
-            scene.look(now.mesh),
-            size,
-            camera=view.camera,
-            movement=view.frame.movement,
-            chart=choice.histogram,
-            before=choice.before,
-        )
+        movement = self.canvas.viewport.frame.movement
+        frames = pictures(states, scene, movement=movement, histogram=choice.histogram, before=choice.before)
         self._drawing.begin(frames, lambda drawn: _progress_text(drawn, len(numbers), path))
 
     def cancel(self) -> None:
@@ -122,7 +113,7 @@ class FeatureFilm(Feature):
         self.host.messages.show_error(tr("Film not saved"), text)
 
     def _write(self, frames: list[Image.Image]) -> None:
-        from hexmend_app.scene.film.film import write_film
+        from hexmend_app.scene.film.film_files import write_film
 
         self.host.try_and_report(
             tr("Film not saved"),

@@ -22,9 +22,9 @@ from hexmend_app.widgets.inputs.combo import ComboBox
 #: Widths to choose from, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
 
-#: Width of the histogram as a fraction of that of the film; smallest height in pixels of the caption and of the colour
-#: bar, and the largest as a fraction of that of the film (see `hexmend_app.scene.film`, which loads VTK).
-CHART_WIDTH, STRIPS = 0.32, (30, 0.075)
+#: Width of the histogram as a fraction of that of the film; height of caption and colour bar together, at least in
+#: pixels and as a fraction of that of the film (see `hexmend_app.scene.page.layout`, which loads VTK).
+CHART_WIDTH, STRIPS = 0.32, (38, 0.125)
 
 #: Default limit of the number of frames: larger files often cannot be viewed where they are sent.
 FRAMES = 60
@@ -60,12 +60,12 @@ class FilmChoice:
         Each of two pictures has the shape of the view, so that nothing is cropped at their sides.
 
         >>> FilmChoice(960).size((1083, 441)), FilmChoice(960, before=True).size((1083, 441))
-        ((960, 390), (960, 256))
+        ((960, 390), (960, 234))
         """
         height = self.width * view[1] / view[0]
         if self.before:
             height *= (1 - CHART_WIDTH * self.histogram) / 2
-            height = max(height + 2 * STRIPS[0], height / (1 - 2 * STRIPS[1]))
+            height = max(height + STRIPS[0], height / (1 - STRIPS[1]))
         return self.width, round(height / 2) * 2
 
 

@@ -1,14 +1,22 @@
-"""Frames of a film of a run: evenly spaced iterations."""
+"""Frames of a film of a run: pages of evenly spaced iterations."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
 
 import numpy as np
+from PIL import Image
 
+from hexmend_app.picture import PicturePanel, Scene
+from hexmend_app.picture.appearance import Since
+from hexmend_app.picture.displacement import Displacement, ReferenceState
+from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import PageRenderer
+from hexmend_app.scene.render.rasters import PageViews, page_views
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.mesh.hex_groups import invalid_counts
 from hexmend_app.state.mesh.history import History, RunRecord
 
 
@@ -30,17 +38,6 @@ class FilmFrame:
     place: str
     state: State
 
-    @property
-    def captions(self) -> tuple[str, ...]:
-        """Captions from the longest to the shortest."""
-        return f"{self.title}, {self.place}: {self.quality}", f"{self.place}: {self.quality}", self.quality
-
-    @property
-    def quality(self) -> str:
-        """q min and the number of invalid hexes, in words."""
-        summary = self.state.summary
-        return f"q min {summary.q_min:.4f}, {invalid_counts(summary.inverted, summary.invalid)}"
-
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:
     """Return the numbers of at most `frames` recorded iterations, including the first and the last."""
@@ -57,3 +54,49 @@ def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int]
 
 def _place(record: RunRecord, number: int) -> str:
     return record.label(number) if record.holds_times else f"iteration {number} of {record.newest}"
+
+
+def pictures(
+    film_frames: Iterable[FilmFrame],
+    scene: Scene,
+    *,
+    movement: Displacement | None = None,
+    histogram: bool = False,
+    before: bool = False,
+) -> Generator[Image.Image]:
+    """Generate the pictures of film frames: pages of a scene, drawn off screen with the same camera.
+
+    Parameters
+    ----------
+    film_frames : iterable of FilmFrame
+    scene : Scene
+        Its panels are replaced.
+    movement : Displacement, optional
+        Movement with the reference state of all frames, if the scene shows a movement; a movement since the last
+        iteration refers to the last frame instead.
+    histogram : bool
+        Draw a histogram of the coloured values.
+    before : bool
+        Show the first frame on the left of all frames, and its distribution as a line in the histogram.
+    """
+    scene = replace(scene, page=replace(scene.page, supersampling=1, crop=False))
+    meshes: list[PageMesh] = []
+    views: PageViews | None = None
+    last: ReferenceState | None = None
+    with ExitStack() as stack:
+        for frame in film_frames:
+            mesh, figures = frame.state.mesh, frame.state.figures
+            if movement is not None:
+                current = ReferenceState(mesh.points, figures, "the last frame")
+                start = last if scene.movement.since is Since.ITERATION else movement.before
+                movement = Displacement(movement.mesh, start or current, mesh.points, figures)
+                last = current
+            shown = PageMesh(frame.place if before else f"{frame.title}, {frame.place}", mesh, figures, movement)
+            meshes = [*(meshes[:1] or [replace(shown, name="Before")]), shown] if before else [shown]
+            panels = tuple(PicturePanel(mesh=number, caption=one.name) for number, one in enumerate(meshes, 1))
+            layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=histogram)
+            if views is None:
+                views = stack.enter_context(page_views(layout))
+            else:
+                views.show(len(meshes), shown)
+            yield PageRenderer(layout, views.rasters(layout)).image()

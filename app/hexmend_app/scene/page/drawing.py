@@ -6,29 +6,34 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from hexmend_app.picture.page import PT_PER_INCH
-from hexmend_app.scene.page.fonts import FAMILY
 from hexmend_app.scene.page.layout import Layout, Rectangle
+from hexmend_app.scene.page.lettering import FAMILY
 
 if TYPE_CHECKING:
-    import numpy as np
-    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 #: Colours of letters and lines on a bright and on a dark background.
 _DARK, _BRIGHT = "#1f2630", "#e3e7ed"
 
+#: Colour of secondary lines.
+SOFT = "#6e7886"
+
 
 class Drawing:
-    """Draws lines, texts and pictures on a page.
+    """Draws lines, texts and pictures on a figure, without axes, which would take most of the time of a film frame.
 
     Parameters
     ----------
-    axes : Axes
-        Matplotlib axes that cover the page, in pixels from its upper left corner.
+    figure : Figure
+        Figure in the size of the page.
     layout : Layout
     """
 
-    def __init__(self, axes: Axes, layout: Layout):
-        self._axes = axes
+    def __init__(self, figure: Figure, layout: Layout):
+        from matplotlib.transforms import Affine2D
+
+        self._figure = figure
+        self._place = Affine2D().scale(1 / layout.size[0], -1 / layout.size[1]).translate(0, 1) + figure.transFigure
         self.letters = layout.letters
         self._points = PT_PER_INCH / layout.scene.page.resolution  # size of a pixel in pt
         self.colour = _BRIGHT if layout.scene.page.dark else _DARK
@@ -36,13 +41,14 @@ class Drawing:
         self.line = max(1.0, self.letters.height / 14)
 
     def image(self, image: Any, box: Rectangle) -> None:
-        """Draw a picture in a rectangle of its size."""
-        from matplotlib.image import AxesImage
+        """Draw a picture, or the colours of an array of pixels, in a rectangle."""
+        from matplotlib.image import BboxImage
+        from matplotlib.transforms import Bbox, TransformedBbox
 
-        extent = (box.left, box.left + box.width, box.top + box.height, box.top)
-        artist = AxesImage(self._axes, extent=extent, origin="upper", interpolation="none", zorder=0)
+        place = TransformedBbox(Bbox.from_bounds(box.left, box.top, box.width, box.height), self._place)
+        artist = BboxImage(place, interpolation="none", zorder=0)
         artist.set_data(image)
-        self._axes.add_image(artist)
+        self._figure.add_artist(artist)
 
     def text(
         self,
@@ -72,10 +78,11 @@ class Drawing:
             Rotate the text by 90° counter-clockwise.
         colour : str, optional
         """
-        self._axes.text(
+        self._figure.text(
             x,
             y,
             text,
+            transform=self._place,
             fontsize=share * self.letters.points,
             fontfamily=FAMILY,
             fontweight="bold" if bold else "normal",
@@ -93,39 +100,13 @@ class Drawing:
         from matplotlib.collections import LineCollection
 
         paths = [((x, y), (u, v)) for x, y, u, v in ends]
-        points = width * self.line * self._points
-        self._axes.add_collection(
-            LineCollection(paths, colors=colour or self.colour, linewidths=points, capstyle="round", zorder=3),
-            autolim=False,
-        )
+        pen: dict[str, Any] = {"colors": colour or self.colour, "linewidths": width * self.line * self._points}
+        self._figure.add_artist(LineCollection(paths, capstyle="round", zorder=3, transform=self._place, **pen))
 
-    def fill(
-        self, corners: Sequence[tuple[float, float]], colour: str | Sequence[float], alpha: float | None = None
-    ) -> None:
-        """Fill the polygon with these corners."""
-        from matplotlib.patches import Polygon
-
-        self._axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", alpha=alpha, zorder=3))
-
-    def gradient(self, box: Rectangle, colours: np.ndarray, *, upright: bool) -> None:
-        """Draw a gradient from left to right, or from bottom to top.
-
-        The area of each colour extends to the end of the gradient and is covered by the next, which avoids seams.
-
-        Parameters
-        ----------
-        box : Rectangle
-        colours : (k, 3) float
-            Red, green and blue from 0 to 1.
-        upright : bool
-            Draw from bottom to top.
-        """
+    def fill(self, *corners: Sequence[tuple[float, float]], colours: Any, alpha: float | None = None) -> None:
+        """Fill polygons, each given by its corners, with one colour or a colour for each."""
         from matplotlib.collections import PolyCollection
 
-        right, bottom = box.left + box.width, box.top + box.height
-        areas = []
-        for k in range(len(colours)):
-            left = box.left if upright else box.left + box.width * k / len(colours)
-            below = bottom - box.height * k / len(colours) if upright else bottom
-            areas.append(((left, box.top), (right, box.top), (right, below), (left, below)))
-        self._axes.add_collection(PolyCollection(areas, facecolors=colours, edgecolors="none", zorder=2), autolim=False)
+        self._figure.add_artist(
+            PolyCollection(corners, facecolors=colours, edgecolors="none", alpha=alpha, zorder=3, transform=self._place)
+        )

@@ -28,6 +28,9 @@ _SPECIAL: list[Entry] = [(f"{special.name} (00,000)", special.colour) for specia
 #: Minimum width and height of a page with a colour bar, in font heights.
 _MIN_SIZE = (24.0, 12.0)
 
+#: Width of a histogram, as a fraction of the page width.
+_HISTOGRAM = 0.32
+
 #: Minimum side of a panel, in pixels.
 _MIN_PANEL = 16
 
@@ -61,6 +64,10 @@ class Layout:
         Position of the colour bar; NONE if it does not fit.
     captions : bool
         Draw a caption above each panel.
+    figures : bool
+        Add its figures to the caption of a single mesh too.
+    histogram : bool
+        Draw a histogram of the coloured values on the right of the panels.
     """
 
     scene: Scene
@@ -69,10 +76,21 @@ class Layout:
     size: tuple[int, int]
     bar: TextPlace
     captions: bool
+    figures: bool
+    histogram: bool
 
     @classmethod
-    def of(cls, scene: Scene, meshes: Sequence[PageMesh]) -> Layout:
-        """Lay out a page; a small one has no colour bar or captions.
+    def of(cls, scene: Scene, meshes: Sequence[PageMesh], *, figures: bool = False, histogram: bool = False) -> Layout:
+        """Lay out a page; a small one has no colour bar, histogram or captions.
+
+        Parameters
+        ----------
+        scene : Scene
+        meshes : sequence of PageMesh
+        figures : bool
+            Add its figures to the caption of a single mesh too.
+        histogram : bool
+            Draw a histogram, if the page has a colour bar.
 
         Raises
         ------
@@ -87,7 +105,8 @@ class Layout:
             len(panels) > 1 or any(panel.caption or panel.wipe for panel in panels)
         )
         for place, lines in ((bar, captions), (TextPlace.NONE, captions), (TextPlace.NONE, False)):
-            layout = cls(scene, meshes, (0, 0), (width, height), place, lines)
+            with_histogram = histogram and place is not TextPlace.NONE
+            layout = cls(scene, meshes, (0, 0), (width, height), place, lines, figures, with_histogram)
             outside = layout.around
             panel = (width - outside[0]) // layout.columns, (height - outside[1]) // layout.rows
             if min(panel) >= _MIN_PANEL:
@@ -115,6 +134,11 @@ class Layout:
     def panels(self) -> tuple[PicturePanel, ...]:
         """Panels, row by row."""
         return self.scene.panels_of(len(self.meshes))
+
+    @cached_property
+    def shown(self) -> set[int]:
+        """Numbers of the meshes in the panels."""
+        return {panel.mesh for panel in self.panels} | {panel.wipe.mesh for panel in self.panels if panel.wipe}
 
     @property
     def columns(self) -> int:
@@ -162,12 +186,18 @@ class Layout:
         """Total width and height of the page outside its panels, in pixels."""
         letter, margin = self.letters.height, 2 * self.scene.page.pixels_of(self.scene.page.margin)
         gap = round(_GAP * letter)
-        width, height = margin + gap * (self.columns - 1), margin + gap * (self.rows - 1) + self.rows * self.caption
+        width = margin + gap * (self.columns - 1) + self.histogram_width
+        height = margin + gap * (self.rows - 1) + self.rows * self.caption
         if self.bar is TextPlace.BELOW:
             height += self.strip
         elif self.bar is TextPlace.RIGHT:
             width += self.strip
         return width, height
+
+    @property
+    def histogram_width(self) -> int:
+        """Width of the histogram in pixels; 0 without one."""
+        return round(_HISTOGRAM * self.size[0]) if self.histogram else 0
 
     @property
     def caption(self) -> int:
@@ -194,6 +224,13 @@ class Layout:
         indent = (self.size[0] - self.around[0] - self.panel[0] * self.columns) // 2
         left = margin + indent + column * (self.panel[0] + gap)
         return Rectangle(left, margin + row * (self.panel[1] + gap + self.caption) + self.caption, *self.panel)
+
+    @property
+    def histogram_place(self) -> Rectangle:
+        """Rectangle of the histogram, on the right of the panels."""
+        first, last = self.place(0), self.place(len(self.panels) - 1)
+        left = first.left + self.columns * first.width + (self.columns - 1) * round(_GAP * self.letters.height)
+        return Rectangle(left, first.top, self.histogram_width, last.top + last.height - first.top)
 
     @property
     def bar_place(self) -> Rectangle:

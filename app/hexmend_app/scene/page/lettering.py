@@ -1,14 +1,17 @@
-"""Lettering of a page: font size and widths of texts."""
+"""Lettering of a page: font, which is shipped with matplotlib, its size, and widths of texts."""
 
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 from PIL import ImageFont
 
 from hexmend_app.picture import Page
 from hexmend_app.picture.page import PT_PER_INCH
-from hexmend_app.scene.page.fonts import font_file
+
+#: Name of the font, so that pictures look the same on all machines.
+FAMILY = "DejaVu Sans"
 
 #: Font size in pixels at which texts are measured.
 _MEASURED_SIZE = 200
@@ -47,4 +50,7 @@ class Lettering:
 
 @cache
 def _font(bold: bool) -> ImageFont.FreeTypeFont:
-    return ImageFont.truetype(font_file(bold), _MEASURED_SIZE)
+    import matplotlib as mpl
+
+    name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
+    return ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts/ttf" / name), _MEASURED_SIZE)

@@ -50,20 +50,21 @@ def draw_captions(drawing: Drawing, layout: Layout) -> None:
 
 def _captions(layout: Layout) -> Iterator[_Caption]:
     scene, meshes = layout.scene, layout.meshes
-    shown = {panel.mesh for panel in layout.panels} | {panel.wipe.mesh for panel in layout.panels if panel.wipe}
-    with_figures = scene.page.figures and len(shown) > 1
+    with_figures = scene.page.figures and (layout.figures or len(layout.shown) > 1)
     for number, panel in enumerate(layout.panels):
         box = layout.place(number)
         letter = f"({ascii_lowercase[number]})" if scene.page.captions is Captions.LETTERS else ""
         first = meshes[panel.mesh - 1]
         middle = box.top - layout.caption / 2
-        width = box.width if panel.wipe is None else panel.wipe.at * box.width
+        last = (number + 1) % layout.columns == 0
+        free = box.width + last * layout.histogram_width  # a caption may extend over the histogram
+        width = free if panel.wipe is None else panel.wipe.at * box.width
         name, figures = f"{letter} {panel.caption or first.name}".strip(), first.text if with_figures else ""
         yield _Caption(box.left, middle, width, name, figures)
         if panel.wipe is not None:
             other, edge = meshes[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
             name, figures = panel.wipe.caption or other.name, other.text if with_figures else ""
-            yield _Caption(edge, middle, box.width - width, name, figures)
+            yield _Caption(edge, middle, free - width, name, figures)
 
 
 def _fits(drawing: Drawing, caption: _Caption, share: float) -> bool:

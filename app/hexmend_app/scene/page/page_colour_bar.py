@@ -49,7 +49,7 @@ def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     ends = drawing.letters.width(colouring.label(colouring.low)), drawing.letters.width(colouring.label(colouring.high))
     left, right = left + ends[0] / 2, right - ends[1] / 2
     bar = Rectangle(round(left), round(top), max(round(right - left), 1), round(_THICK * letter))
-    drawing.gradient(bar, colouring.table / 255, upright=False)
+    drawing.image(colouring.table[None], bar)
     below = bar.top + bar.height
     space = (max(ends) + letter) / bar.width
     for value in ticks(layout, drawn, space):
@@ -69,7 +69,7 @@ def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     left = box.left + _PAD * letter
     low = box.top + box.height - (len(swatches) * _ROW + 1.2) * letter
     bar = Rectangle(round(left), round(box.top + letter), round(_THICK * letter), max(round(low - box.top - letter), 1))
-    drawing.gradient(bar, colouring.table / 255, upright=True)
+    drawing.image(colouring.table[::-1, None], bar)
     x = bar.left + bar.width
     widest = 0.0
     for value in ticks(layout, drawn, 2 * letter / bar.height):
@@ -114,8 +114,8 @@ def _swatch(drawing: Drawing, left: float, middle: float, colour: tuple[int, int
     letter = drawing.letters.height
     half = _SWATCH * letter / 2
     right, top, bottom = left + 2 * half, middle - half, middle + half
-    rgb = [part / 255 for part in colour]
-    drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], rgb)
+    rgb = tuple(part / 255 for part in colour)
+    drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], colours=rgb)
     drawing.text(right + 0.4 * letter, middle, text)
 
 

@@ -18,6 +18,7 @@ from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.page.page_captions import draw_captions
 from hexmend_app.scene.page.page_colour_bar import draw_bar
+from hexmend_app.scene.page.page_histogram import draw_histogram
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.render.rasters import Rasters, rasters
 from hexmend_app.state.node_step import NodeStep
@@ -133,9 +134,7 @@ class PageRenderer:
         # Slightly more than whole pixels, so that rounding does not drop a pixel.
         width, height = ((side + 1e-3) / page.resolution for side in layout.size)
         figure = Figure(figsize=(width, height), dpi=page.resolution, facecolor="none")
-        axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
-        axes.axis("off")
-        drawing = Drawing(axes, layout)
+        drawing = Drawing(figure, layout)
         cameras = set()
         for number, (panel, image) in enumerate(zip(layout.panels, self._drawn.images, strict=True)):
             if pictures:
@@ -144,6 +143,7 @@ class PageRenderer:
                 cameras.add(panel.camera)
                 draw_axes(drawing, layout.place(number), self._drawn.axes[number], layout.scene.axes.place, page)
         draw_captions(drawing, layout)
+        draw_histogram(drawing, layout, self._drawn)
         draw_bar(drawing, layout, self._drawn)
         return figure
 
@@ -246,11 +246,11 @@ def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner
             place = end + _BEYOND * letter * unit
             if page.ground is not None:
                 drawing.lines((x, y, *end), colour=page.ground, width=_HALO)
-                drawing.fill(_circle(place[0], place[1], _DISC * letter), page.ground, alpha=_HALO_OPACITY)
+                drawing.fill(_circle(place[0], place[1], _DISC * letter), colours=page.ground, alpha=_HALO_OPACITY)
             drawing.lines((x, y, *base), colour=colour, width=1.6)
-            drawing.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colour)
+            drawing.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colours=colour)
         else:
-            drawing.fill(_circle(x, y, 0.16 * letter), colour)
+            drawing.fill(_circle(x, y, 0.16 * letter), colours=colour)
             if axes[axis, 2] < 0:
                 continue  # its end points away from the viewer
             place = np.array([x - 0.55 * letter, y + 0.6 * letter])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,12 +45,15 @@ class Rasters:
         Colouring of all panels.
     special_colours : list of (name, count or None, colour)
         Special colours, with the number of hexes if a single mesh is shown.
+    values : list of ((m,) float64, (m,) uint8)
+        Coloured values of the hexes of each mesh that is shown, and the numbers of their special colours.
     """
 
     images: list[Image.Image]
     axes: list[np.ndarray]
     colouring: Colouring
     special_colours: list[tuple[str, int | None, tuple[int, int, int]]]
+    values: list[tuple[np.ndarray, np.ndarray]]
 
 
 def rasters(
@@ -58,7 +63,20 @@ def rasters(
     node_step: NodeStep | None = None,
     at_once: int = AT_ONCE,
 ) -> Rasters:
-    """Render the panels of a page.
+    """Render the panels of a page; for the parameters see `page_views`."""
+    with page_views(layout, filters=filters, node_step=node_step, at_once=at_once) as views:
+        return views.rasters(layout)
+
+
+@contextmanager
+def page_views(
+    layout: Layout,
+    *,
+    filters: Filters | None = None,
+    node_step: NodeStep | None = None,
+    at_once: int = AT_ONCE,
+) -> Iterator[PageViews]:
+    """Open the views of the meshes of a page, to render its panels once or several times.
 
     Parameters
     ----------
@@ -70,38 +88,43 @@ def rasters(
     at_once : int
         Maximum number of pixels that are rendered at once; larger pictures are rendered in tiles.
     """
-    scene = layout.scene
-    look = scene.look(layout.meshes[0].mesh)
-    supersampling = scene.page.supersampling
-    pixel_ratio = scene.page.line_width(scene.lines) * supersampling
-    tiles = Tiles.of(layout.panel, supersampling, pixel_ratio, at_once)
+    page = layout.scene.page
+    pixel_ratio = page.line_width(layout.scene.lines) * page.supersampling
+    tiles = Tiles.of(layout.panel, page.supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
-        views = _Views(stage, layout, look, pixel_ratio, filters)
+        views = PageViews(stage, tiles, layout, pixel_ratio, filters)
         views.all[1].overlay_layers.selection.show_node_step(node_step)
-        images, axes = [], []
-        for panel in layout.panels:
-            camera = views.camera(panel)
-            image = views.picture(panel.mesh, camera, tiles)
-            if panel.wipe is not None:
-                edge = round(panel.wipe.at * image.width)
-                image.paste(views.picture(panel.wipe.mesh, camera, tiles).crop((edge, 0, *image.size)), (edge, 0))
-            images.append(image)
-            axes.append(_axes(camera))
-        single = len(views.shown) == 1
-        counts = views.all[min(views.shown)].colours.special_counts
-        special_colours = [(name, count if single else None, colour) for name, count, colour in counts]
-        return Rasters(images, axes, views.all[1].colouring, special_colours)
+        yield views
 
 
-class _Views:
-    """Views of the meshes of a page, which share a stage and are rendered one at a time."""
+class PageViews:
+    """Views of the meshes of a page, which share a stage and are rendered one at a time.
 
-    def __init__(self, stage: Stage, layout: Layout, look: Look, pixel_ratio: float, filters: Filters | None):
-        self._stage, self._layout, self._background = stage, layout, layout.scene.page.ground
-        self.shown = {panel.mesh for panel in layout.panels}
-        self.shown |= {panel.wipe.mesh for panel in layout.panels if panel.wipe is not None}
+    Attributes
+    ----------
+    all : dict of Viewport
+        Views by the number of their mesh, from 1.
+
+    Parameters
+    ----------
+    stage : Stage
+    tiles : Tiles
+        Division of the picture of a panel.
+    layout : Layout
+    pixel_ratio : float
+        Width of a thin line, in rendered pixels.
+    filters : Filters or None
+        Filters of a view of the first mesh.
+    """
+
+    def __init__(self, stage: Stage, tiles: Tiles, layout: Layout, pixel_ratio: float, filters: Filters | None):
+        self._stage, self._tiles, self._layout = stage, tiles, layout
+        self._background = layout.scene.page.ground
+        self.shown = layout.shown
         self.all: dict[int, Viewport] = {}
         self._cameras: dict[tuple[str, int], vtkCamera] = {}
+        self._pictures: dict[tuple[int, vtkCamera], Image.Image] = {}
+        self._look = look = layout.scene.look(layout.meshes[0].mesh)
         first = layout.meshes[0].frame(look)
         for number in sorted(self.shown | {1}):
             view = Viewport(Pane(stage.window), axes=False, filters=filters, pixel_ratio=pixel_ratio)
@@ -113,6 +136,29 @@ class _Views:
             for layer in view.layers:
                 stage.window.RemoveRenderer(layer)
         self._share_colour_range(look)
+
+    def show(self, number: int, mesh: PageMesh) -> None:
+        """Draw a mesh with other positions of its nodes in the view of a number."""
+        self.all[number].draw(mesh.frame(self._look))
+        self._pictures = {key: picture for key, picture in self._pictures.items() if key[0] != number}
+
+    def rasters(self, layout: Layout) -> Rasters:
+        """Render the panels of a page with these meshes; pictures of meshes that have not changed are used again."""
+        images, axes = [], []
+        for panel in layout.panels:
+            camera = self._camera(panel)
+            image = self._picture(panel.mesh, camera)
+            if panel.wipe is not None:
+                edge = round(panel.wipe.at * image.width)
+                image = image.copy()
+                image.paste(self._picture(panel.wipe.mesh, camera).crop((edge, 0, *image.size)), (edge, 0))
+            images.append(image)
+            axes.append(_axes(camera))
+        colours = [self.all[number].colours for number in sorted(self.shown)]
+        single = len(colours) == 1
+        special_colours = [(name, n if single else None, colour) for name, n, colour in colours[0].special_counts]
+        values = [(one.values, one.kinds) for one in colours]
+        return Rasters(images, axes, self.all[1].colouring, special_colours, values)
 
     def _frame_of_other(self, other: PageMesh, first: Frame) -> Frame:
         """Return the frame of another mesh than the first, with the look of the first if their hexes are equal."""
@@ -131,7 +177,7 @@ class _Views:
             for view in self.all.values():
                 view.extend_range((min(lows), max(highs)))
 
-    def camera(self, panel: PicturePanel) -> vtkCamera:
+    def _camera(self, panel: PicturePanel) -> vtkCamera:
         """Return the camera of a panel; it includes all meshes with equal hexes in panels with the same camera."""
         comparable = self._comparable(panel.mesh)
         key = panel.camera, min(comparable)
@@ -149,9 +195,14 @@ class _Views:
         mesh = self.all[number].frame.mesh
         return {other for other, view in self.all.items() if same_hexes(mesh, view.frame.mesh)}
 
-    def picture(self, number: int, camera: vtkCamera, tiles: Tiles) -> Image.Image:
+    def _picture(self, number: int, camera: vtkCamera) -> Image.Image:
         """Return the picture of a mesh in the size of a panel."""
-        view, window = self.all[number], self._stage.window
+        if (number, camera) not in self._pictures:
+            self._pictures[number, camera] = self._drawn(number, camera)
+        return self._pictures[number, camera]
+
+    def _drawn(self, number: int, camera: vtkCamera) -> Image.Image:
+        view, window, tiles = self.all[number], self._stage.window, self._tiles
         for layer in view.layers:
             window.AddRenderer(layer)
         view.camera.DeepCopy(camera)

@@ -9,10 +9,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QSpinBox
 
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
-from hexmend_app.picture.appearance import Look
-from hexmend_app.scene.film.film_page import FilmPage
+from hexmend_app.picture import Page, Scene
+from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.page_mesh import PageMesh
 from tests.app.driving import LEFT, button, named, turn
 from tests.app.features.timeline.test_feature import stepped
+from tests.core.grids import grid
 
 
 @pytest.fixture(autouse=True)
@@ -32,9 +34,9 @@ def accepted(monkeypatch):
 @pytest.mark.parametrize("width", [640, 2560])
 def test_a_picture_next_to_that_before_the_run_is_as_wide_as_the_view(width, histogram):
     view = 1000, 600
-    look = Look()
     size = FilmChoice(width, histogram=histogram, before=True).size(view)
-    wide, high = FilmPage.of(size, look, chart=histogram, before=True).picture_size
+    meshes = [PageMesh.of(grid(1), name) for name in "ab"]
+    wide, high = Layout.of(Scene(page=Page(pixels=size)), meshes, histogram=histogram).panel
     assert 0 <= wide / high - view[0] / view[1] < 0.1
 
 

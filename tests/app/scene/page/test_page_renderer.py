@@ -72,7 +72,7 @@ def test_vector_files_have_the_size_in_millimetres_and_contain_texts(tmp_path):
     assert [float(side) / 72 * 25.4 for side in sides] == pytest.approx([170, 80], abs=0.1)
     texts = re.findall(r"<text[^>]*>([^<]*)</text>", text)
     assert {"quality $x_1$ &lt;b&gt;", "a", "b", "X", "Y", "Z", "0", "1", "inverted"} <= set(texts)
-    assert text.count("<image") == 2
+    assert text.count("<image") == 3  # two panels and the gradient
     sheet.write(tmp_path / "p.pdf")
     box = re.search(rb"/MediaBox \[ ?0 0 ([0-9.]+) ([0-9.]+) ?\]", (tmp_path / "p.pdf").read_bytes())
     assert [float(side) / 72 * 25.4 for side in box.groups()] == pytest.approx([170, 80], abs=0.1)

@@ -1,113 +1,33 @@
-"""Films of a run: the mesh at its iterations, with captions, colour bar and histogram."""
+"""Files of films: MP4, and animated GIF, PNG and WebP."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.errors import FileError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.terminal_text import install_hint
-from hexmend_app.picture.appearance import Look, Since
-from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
-from hexmend_app.scene.film.film_frames import FilmFrame
-from hexmend_app.scene.film.film_page import FilmPage, InitialPicture
-from hexmend_app.scene.film.frame_parts import pixel_ratio_of, strip_height
-from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.render.colour_count import count_colours
-from hexmend_app.scene.render.stage import Stage
-from hexmend_app.scene.views.viewport import Viewport
 
 #: Film formats by suffix; browsers show all of them.
 FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 
-#: Numbers of colours in the common palette of a GIF: of the mesh, of the colour bar, which would otherwise show bands,
-#: and of the axes; two are those of invalid hexes.
-_COLOURS, _BAR, _AXES = 114, 120, 16
-
 #: Duration of the first and the last frame, in frames.
 _PAUSE = 8
-
 
 #: Constant rate factor of x264; 18 is visually almost lossless.
 _QUALITY = "18"
 
 #: Code of the colour space that players assume (ITU-T H.273): BT.709, as in HDTV.
 _BT709 = 1
-
-
-def pictures(
-    film_frames: Iterable[FilmFrame],
-    look: Look,
-    size: tuple[int, int],
-    *,
-    view: str | tuple[float, float, float] = "iso",
-    camera: vtkCamera | None = None,
-    movement: Displacement | None = None,
-    chart: bool = False,
-    before: bool = False,
-) -> Generator[Image.Image]:
-    """Generate the pictures of film frames, drawn off screen with the same camera.
-
-    Parameters
-    ----------
-    film_frames : iterable of FilmFrame
-    look : Look
-    size : (width, height)
-        Size of the film in pixels, including caption and colour bar.
-    view : str or vector
-        View direction if there is no camera.
-    camera : vtkCamera, optional
-    movement : Displacement, optional
-        Movement with the reference state of all frames, if the look shows a movement; a movement since the last
-        iteration refers to the last frame instead.
-    chart : bool
-        Draw a histogram of the coloured values.
-    before : bool
-        Show the first frame on the left of all frames, and its distribution as a line in the histogram.
-    """
-    page = FilmPage.of(size, look, chart=chart, before=before)
-    initial: InitialPicture | None = None
-    with Stage(page.picture_size) as stage:
-        viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
-        last: ReferenceState | None = None
-        for film_frame in film_frames:
-            mesh, figures = film_frame.state.mesh, film_frame.state.figures
-            if movement is not None:
-                current = ReferenceState(mesh.points, figures, "the last frame")
-                start = last if look.movement.since is Since.ITERATION else movement.before
-                movement = Displacement(movement.mesh, start or current, mesh.points, figures)
-                last = current
-            first = viewport.frame is None
-            viewport.draw(Frame(mesh, figures, movement, look))
-            if first:
-                viewport.view(view)
-                if camera is not None:
-                    viewport.camera.DeepCopy(camera)
-                    viewport.camera.SetWindowCenter(0, 0)
-            picture = _picture(stage, viewport)
-            if first and before:
-                captions = f"Before: {film_frame.quality}", "Before"
-                initial = InitialPicture(captions, picture, page.bars(viewport))
-            yield page.compose(picture, film_frame.captions, viewport, initial)
-
-
-def _picture(stage: Stage, viewport: Viewport) -> Image.Image:
-    """Return the picture of what a viewport shows, shaded."""
-    viewport.still()
-    viewport.shade()
-    viewport.layers[0].ResetCameraClippingRange()
-    return Image.fromarray(stage.picture())
 
 
 def write_film(path: Path, frames: Sequence[Image.Image], rate: float, *, poster: bool = False) -> None:
@@ -162,16 +82,14 @@ def format_of(path: Path) -> str:
 
 
 def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:
-    """Reduce all frames to a common palette, so that unchanged areas take no space."""
-    sample = [np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)]
-    strip = strip_height(frames[0].size)
-    table = _main_colours([pixels[: len(pixels) - strip] for pixels in sample], _COLOURS)
-    if strip:
-        last = sample[-1]
-        table += _colours_along(last[-strip:][strip // 4])
-        low, corner = len(last) - strip, 3 * strip
-        table += _main_colours([last[low - corner : low, :corner]], _AXES)
-        table += [special.colour for special in INVALID_COLOURS]
+    """Reduce all frames to a common palette, so that unchanged areas take no space.
+
+    Half of it is for the lower edge of the frames, where the colour bar would otherwise show bands.
+    """
+    sample = np.stack([np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)])
+    edge = frames[0].height * 7 // 8
+    table = [*_main_colours(sample[:, :edge], 128), *_main_colours(sample[-1, edge:], 126)]
+    table += [special.colour for special in INVALID_COLOURS]
     return [_apply_palette(frame, table) for frame in frames]
 
 
@@ -181,28 +99,19 @@ def _apply_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Imag
 
     pixels = np.asarray(frame.convert("RGB")).astype(np.uint32)
     packed, index = np.unique(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], return_inverse=True)
-    unpacked = np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1)
-    _, nearest = KDTree(np.array(table)).query(unpacked)
+    _, nearest = KDTree(np.array(table)).query(np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1))
     indexed = Image.fromarray(nearest.astype(np.uint8)[index].reshape(pixels.shape[:2]), "P")
     indexed.putpalette([part for colour in table for part in colour])
     return indexed
 
 
-def _main_colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
-    """Return at most `most` colours that best represent pictures, each (h, w, 3) uint8."""
-    colours, counts = count_colours(np.concatenate([part.reshape(-1, 3) for part in parts]))
+def _main_colours(pixels: np.ndarray, most: int) -> list[tuple[int, ...]]:
+    """Return at most `most` colours that best represent pixels, (..., 3) uint8."""
+    colours, counts = count_colours(pixels)
     # Weight colours by the root of their count; otherwise most of the palette would go to the background.
     weighted = np.repeat(colours, np.ceil(np.sqrt(counts)).astype(int), axis=0)
     chosen = Image.fromarray(weighted[None]).quantize(most, method=Image.Quantize.MEDIANCUT).convert("RGB")
     return [tuple(colour) for colour in count_colours(np.asarray(chosen))[0].tolist()]
-
-
-def _colours_along(line: np.ndarray) -> list[tuple[int, ...]]:
-    """Sample the colours along a line of pixels, (w, 3), for example through a colour bar with swatches."""
-    counts = Counter(map(tuple, line.tolist()))
-    in_order = list(counts)
-    sample = [in_order[round(i)] for i in np.linspace(0, len(in_order) - 1, min(_BAR, len(in_order)))]
-    return list(dict.fromkeys([*sample, *(colour for colour, _ in counts.most_common(4))]))
 
 
 def check_installed(path: Path) -> None:
