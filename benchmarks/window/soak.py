@@ -177,7 +177,7 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
     save_and_wait(session, folder / "mesh.vtu")
     saved = folder / "round.hexmend"
     save_and_wait(session, saved)
-    window.features["save"].picture(folder / "picture.png", (1280, 800))  # type: ignore[attr-defined]
+    window.features["export"].picture(folder / "picture.png", (1280, 800))  # type: ignore[attr-defined]
     _open(window, saved)
     for change in (session.commands.undo, session.commands.redo, session.commands.reset):
         change()

@@ -56,7 +56,7 @@ def main(folder: Path) -> None:
         screenshot(window, folder / "compare-views.png")
         figure = folder / "compare-figure.png"
         wait_until_drawn(window)
-        window.features["save"].picture(figure, (1000, 640))
+        window.features["export"].picture(figure, (1000, 640))
         compress(figure)
         window.messages.clear()
         choose(ThemeChoice.DARK)

@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QDialog
 
-from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.features.pad.pad_dialog import PadDialog
 from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
@@ -24,9 +23,9 @@ def _palette(window: Window) -> QDialog:
 
 
 DIALOGS: dict[str, Callable[[Window], QDialog]] = {
-    "picture": lambda window: window.features["save"].picture_dialog(),
+    "picture": lambda window: window.features["export"].dialog("picture"),
     "histogram": lambda window: window.features["histogram"].dialog(),
-    "film": lambda window: FilmDialog(FilmChoice(), (800, 600), 40, window),
+    "report": lambda window: window.features["export"].dialog("report"),
     "pad": _pad,
     "keys": lambda window: KeysPage(window.menus.declared(), window),
     "palette": _palette,

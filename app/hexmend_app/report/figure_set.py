@@ -15,10 +15,10 @@ from hexmend_app.picture import Colours, Cut, PicturePanel, Plane, Scene, TextPl
 from hexmend_app.picture.appearance import Traces
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.report.caption_phrases import coloured_by, cut_open, listed, opposite, seen_from
-from hexmend_app.report.case import Case
+from hexmend_app.report.case import Case, Version
 from hexmend_app.report.run_figures import write_convergence, write_distributions
 from hexmend_app.scene.page.page_mesh import PageMesh
-from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page
 
 #: Maximum number of panels in a row, height relative to width of a panel, and heights of caption and bar in mm.
 _IN_A_ROW, _PANEL, _AROUND = 3, 0.9, (5.0, 10.0)
@@ -107,15 +107,15 @@ def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
     """
     if not parts or {"surface", "cut"} & set(parts):
         try:
-            _paged(style, style.scene, [PicturePanel(mesh=number) for number in range(1, versions + 1)])
+            figure_scene(style, style.scene, [""] * versions)
         except ParameterError as error:
             problem = f"{versions} picture{'s' * (versions > 1)} on a page {style.width:g} mm wide: {error}"
             raise ParameterError(f"{problem}; change the width, or the dpi in the scene") from None
 
 
-def _paged(style: Style, scene: Scene, panels: Sequence[PicturePanel]) -> Scene:
-    """Return a scene with panels on a page; with an exact camera, panels have the aspect of the scene's page."""
-    scene, count = stationary(scene), len(panels)
+def figure_scene(style: Style, scene: Scene, names: Sequence[str]) -> Scene:
+    """Return a scene with a panel for each named mesh; with an exact camera, panels have the aspect of its page."""
+    scene, count = stationary(scene), len(names)
     columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
     caption, bar = _AROUND
     width, height = scene.page.size
@@ -123,7 +123,13 @@ def _paged(style: Style, scene: Scene, panels: Sequence[PicturePanel]) -> Scene:
     page_height = -(-count // columns) * (style.width / columns * aspect + caption) + bar
     page = replace(scene.page, width=style.width, height=page_height, pixels=None, columns=columns)
     bar_style = replace(scene.bar, place=TextPlace.BELOW) if scene.bar.place is TextPlace.RIGHT else scene.bar
-    return replace(scene, page=page, panels=tuple(panels), bar=bar_style)
+    panels = tuple(PicturePanel(mesh=number, caption=name) for number, name in enumerate(names, 1))
+    return replace(scene, page=page, panels=panels, bar=bar_style)
+
+
+def draw_versions(scene: Scene, versions: Sequence[Version]) -> PageRenderer:
+    """Draw a scene with a panel for each version."""
+    return draw_page(scene, [PageMesh(version.name, version.mesh, version.figures) for version in versions])
 
 
 def stationary(scene: Scene) -> Scene:
@@ -163,15 +169,13 @@ def _cut(case: Case, folder: Path, style: Style) -> Figure:
 def _mesh_figure(case: Case, folder: Path, style: Style, part: str, scene: Scene, description: str) -> Figure:
     """Draw one panel for each version with the same camera."""
     versions = case.versions
-    panels = [PicturePanel(mesh=number, caption=version.name) for number, version in enumerate(versions, 1)]
-    page_meshes = [PageMesh(version.name, version.mesh, version.figures) for version in versions]
-    renderer = draw_page(_paged(style, scene, panels), page_meshes)
+    names = [version.name for version in versions]
+    renderer = draw_versions(figure_scene(style, scene, names), versions)
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
         renderer.write(path)
     invalid = any(version.figures.n_invalid for version in versions)
-    names, colours = listed([version.name for version in versions]), coloured_by(scene.colours, invalid)
-    text = f"{case.name}, {names}: {description}. {colours}"
+    text = f"{case.name}, {listed(names)}: {description}. {coloured_by(scene.colours, invalid)}"
     return Figure(part, text, tuple(paths))
 
 

@@ -50,7 +50,7 @@ for middle in middles[np.argsort(middles @ towards)[-40:]]:
     corners = mesh.points[mesh.hexes[window.session.selection.hex]]
     seen += bool((corners.min(axis=0) - 1e-9 <= middle).all() and (middle <= corners.max(axis=0) + 1e-9).all())
 assert seen == 40, seen
-assert window.features["save"].picture(sys.argv[1], (640, 400))
+assert window.features["export"].picture(sys.argv[1], (640, 400))
 window.close()
 """
 

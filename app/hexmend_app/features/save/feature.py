@@ -1,21 +1,16 @@
-"""Saving the mesh and pictures of the view."""
+"""Saving the mesh."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
 from hexmend.io.storage.file_progress import FileProgress
-from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.features.save.visible_saver import VisibleSaver, warn_of_omitted
 from hexmend_app.formats.session import SUFFIX
-from hexmend_app.picture import Page, Scene
-from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
@@ -23,13 +18,12 @@ from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_sessi
 
 
 class FeatureSave(Feature):
-    """Saves the mesh and pictures, and asks before unsaved changes are lost."""
+    """Saves the mesh, and asks before unsaved changes are lost."""
 
     order = 11
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._last: Scene | None = None  # scene of the last picture
         self.visible = VisibleSaver(host)
         saver = self.session.saver
         saver.began.connect(self._on_began)
@@ -38,7 +32,7 @@ class FeatureSave(Feature):
         saver.failed.connect(self._on_failed)
 
     def actions(self) -> Sequence[Action]:
-        """Return the actions that save the mesh and a picture."""
+        """Return the actions that save the mesh."""
         return (
             Action(
                 id="save",
@@ -60,19 +54,6 @@ class FeatureSave(Feature):
                 help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
                 handle=lambda: self.visible.ask(self.canvas.viewport),
                 enabled=self._can_save_visible,
-            ),
-            Action(
-                id="screenshot",
-                text=tr("Save &picture…"),
-                menu="File",
-                part=1,
-                keys="Ctrl+P",
-                icon="camera-outline",
-                help=tr("Save a picture of the view in any size."),
-                tool=tr("Picture"),
-                handle=self.ask_picture,
-                enabled=lambda: self.canvas is not None,
-                in_view=True,
             ),
         )
 
@@ -163,57 +144,3 @@ class FeatureSave(Feature):
             raise saving.error
         content = "mesh" if saving.data is None else "session"
         self.host.messages.show_error(tr("The {content} was not saved", content=content), str(saving.error))
-
-    def ask_picture(self) -> None:
-        """Ask for the settings and path of a picture, and write it."""
-        dialog = self.picture_dialog()
-        if dialog.exec():
-            self._last = dialog.scene()
-            self.session.saved_cameras.add_all(self._last.cameras)
-            self.write_picture(dialog.target.path(), self._last)
-        dialog.deleteLater()
-
-    def picture_dialog(self) -> PictureDialog:
-        """Return the dialog for a picture of the view, with the page, lines, colour bar and axes used last."""
-        canvas, last = self.canvas, self._last
-        size = canvas.size() * self.host.dialog_parent.devicePixelRatioF()
-        page = Page(pixels=(size.width(), size.height())) if last is None else last.page
-        scene = canvas.scene(page, self.session.saved_cameras.all)
-        if last is not None:
-            lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
-            scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
-        names = canvas.names if len(scene.panels) > 1 else ()
-        return PictureDialog(scene, canvas.draw_page, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
-
-    def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
-        """Write the view as a picture of `size` pixels; return True if it was written."""
-        page = Page(pixels=size, background="transparent" if transparent else "white")
-        return self.write_picture(Path(path), self.canvas.scene(page, self.session.saved_cameras.all))
-
-    def _recipe(self) -> Recipe | None:
-        """Return the recipe of the last run on the mesh, or None if the mesh is as it was opened."""
-        session = self.session
-        work = session.run.work
-        if work is None or session.document.now is session.document.start:
-            return None
-        stage = session.run_setup.active_stage
-        if isinstance(work, Recipe):
-            return work
-        return Recipe.of(stage if stage is not None else work, rules=session.run.record.rules)
-
-    def write_picture(self, path: Path, scene: Scene) -> bool:
-        """Write a picture of a scene; return True if it was written."""
-        width, height = scene.page.size
-        return self.host.try_and_report(
-            tr("Picture not saved"),
-            lambda: self.canvas.draw_page(scene).write(path, self._metadata(path, scene)),
-            tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
-        )
-
-    def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
-        """Return the metadata of a picture: the scene, its meshes, and the recipe of the first mesh."""
-        document = self.session.document
-        opened = document.start.mesh
-        shown = [document.now, *(one.state for one in self.session.side_views.all)]
-        meshes = [PicturedMesh.of(opened, state.mesh, document.path, path) for state in shown]
-        return with_metadata(scene, meshes, self._recipe())

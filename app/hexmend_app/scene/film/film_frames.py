@@ -63,6 +63,7 @@ def pictures(
     movement: Displacement | None = None,
     histogram: bool = False,
     before: bool = False,
+    aspect: float = 0.0,
 ) -> Generator[Image.Image]:
     """Generate the pictures of film frames: pages of a scene, drawn off screen with the same camera.
 
@@ -78,6 +79,8 @@ def pictures(
         Draw a histogram of the coloured values.
     before : bool
         Show the first frame on the left of all frames, and its distribution as a line in the histogram.
+    aspect : float
+        Width by height of the view whose pose the camera has: nothing is cropped at its sides.
     """
     scene = replace(scene, page=replace(scene.page, supersampling=1, crop=False))
     meshes: list[PageMesh] = []
@@ -96,7 +99,7 @@ def pictures(
             panels = tuple(PicturePanel(mesh=number, caption=one.name) for number, one in enumerate(meshes, 1))
             layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=histogram)
             if views is None:
-                views = stack.enter_context(page_views(layout))
+                views = stack.enter_context(page_views(layout, aspect=aspect))
             else:
                 views.show(len(meshes), shown)
             yield PageRenderer(layout, views.rasters(layout)).image()

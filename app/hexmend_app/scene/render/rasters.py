@@ -75,6 +75,7 @@ def page_views(
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
     at_once: int = AT_ONCE,
+    aspect: float = 0.0,
 ) -> Iterator[PageViews]:
     """Open the views of the meshes of a page, to render its panels once or several times.
 
@@ -87,12 +88,14 @@ def page_views(
         Node step to draw in the first mesh.
     at_once : int
         Maximum number of pixels that are rendered at once; larger pictures are rendered in tiles.
+    aspect : float
+        Smallest width by height of what the cameras show; panels that are narrower show more above and below.
     """
     page = layout.scene.page
     pixel_ratio = page.line_width(layout.scene.lines) * page.supersampling
     tiles = Tiles.of(layout.panel, page.supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
-        views = PageViews(stage, tiles, layout, pixel_ratio, filters)
+        views = PageViews(stage, tiles, layout, pixel_ratio, filters, aspect)
         views.all[1].overlay_layers.selection.show_node_step(node_step)
         yield views
 
@@ -115,10 +118,20 @@ class PageViews:
         Width of a thin line, in rendered pixels.
     filters : Filters or None
         Filters of a view of the first mesh.
+    aspect : float
+        Smallest width by height of what the cameras show.
     """
 
-    def __init__(self, stage: Stage, tiles: Tiles, layout: Layout, pixel_ratio: float, filters: Filters | None):
-        self._stage, self._tiles, self._layout = stage, tiles, layout
+    def __init__(
+        self,
+        stage: Stage,
+        tiles: Tiles,
+        layout: Layout,
+        pixel_ratio: float,
+        filters: Filters | None,
+        aspect: float,
+    ):
+        self._stage, self._tiles, self._layout, self._aspect = stage, tiles, layout, aspect
         self._background = layout.scene.page.ground
         self.shown = layout.shown
         self.all: dict[int, Viewport] = {}
@@ -188,6 +201,8 @@ class PageViews:
             width, height = self._layout.panel
             camera = self._cameras[key] = vtkCamera()
             aim(camera, self._layout.scene.camera_of(panel), places, width / height)
+            if width < self._aspect * height:
+                camera.Zoom(width / height / self._aspect)
         return self._cameras[key]
 
     def _comparable(self, number: int) -> set[int]:

@@ -96,30 +96,6 @@ def ask_script(parent: QWidget, stem: str) -> str:
     return _ask_to_save(parent, tr("Save script as"), f"{stem}.py", tr("Python script (*.py)"))
 
 
-def ask_film(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save a film of a run to; "" if cancelled."""
-    kinds = tr(
-        "GIF animation (*.gif);;MP4 video (*.mp4);;WebP animation, smaller files (*.webp);;"
-        "PNG animation, lossless (*.png)"
-    )
-    return _ask_to_save(parent, tr("Save film as"), f"{stem}.gif", kinds)
-
-
-def ask_figures(parent: QWidget, stem: str) -> str:
-    """Ask where to create a folder for figures and return the path of the new folder; "" if cancelled."""
-    parent_folder = QFileDialog.getExistingDirectory(parent, tr("Create folder of figures in"), str(folder()))
-    if not parent_folder:
-        return ""
-    remember_folder(Path(parent_folder) / stem)
-    names = (f"{stem}-figures{f'-{count}' if count else ''}" for count in [0, *range(2, 10_000)])
-    return next((str(path) for name in names if not (path := Path(parent_folder) / name).exists()), "")
-
-
-def ask_report(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save a report to; "" if cancelled."""
-    return _ask_to_save(parent, tr("Export report"), f"{stem}-report.html", tr("Web page (*.html);;PDF (*.pdf)"))
-
-
 def remember_folder(path: Path) -> None:
     """Store the folder of a file as the folder in which the next dialog starts."""
     FOLDER.set(path.resolve().parent)
@@ -138,12 +114,12 @@ def folder() -> Path:
 
 
 def named(path: str, kinds: str) -> str:
-    """Return a path with the suffix of the first kind of file if it has no suffix.
+    """Return a path with the suffix of the first kind of file if it has no suffix; no kind stands for a folder.
 
     >>> named("dir/bridge", "Table (*.csv);;Markdown (*.md)"), named("bridge.pdf", "Table (*.csv)"), named("", "(*.md)")
     ('dir/bridge.csv', 'bridge.pdf', '')
     """
-    return path + re.search(r"\.\w+", kinds)[0] if path and not Path(path).suffix else path
+    return path + re.search(r"\.\w+", kinds)[0] if path and kinds and not Path(path).suffix else path
 
 
 def ask_replacing(parent: QWidget, path: str) -> bool:

@@ -125,6 +125,11 @@ class TargetRow(QWidget):
         browse.clicked.connect(self._browse)
         fill(QHBoxLayout(self), labelled(tr("File"), self.line), (self.line, 1), browse, margins=(0, 0, 0, 0))
 
+    def propose(self, name: str, kinds: str) -> None:
+        """Propose a name for another kind of file, in the same folder."""
+        self._kinds = kinds
+        self.line.setText(str(self.path().parent / name))
+
     @property
     def empty(self) -> bool:
         """True if no path is entered."""

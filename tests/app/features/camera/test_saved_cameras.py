@@ -76,15 +76,16 @@ def test_the_menu_renames_unless_the_name_exists(window, saved, monkeypatch):
 
 @pytest.mark.slow
 def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot, mesh_file):
-    save, cameras = window.features["save"], window.session.saved_cameras
-    dialog = save.picture_dialog()
-    qtbot.addWidget(dialog)
+    export, cameras = window.features["export"], window.session.saved_cameras
+    whole = export.dialog("picture")
+    qtbot.addWidget(whole)
+    dialog = whole.settings
     dialog.camera.setCurrentText("top")
     assert dialog.scene().camera.pose == saved["top"]
     write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
     dialog.load(str(tmp_path / "more.toml"))
     assert list(dialog.scene().cameras) == [*saved, "top (2)", "left"]
-    assert save.picture(tmp_path / "p.png", (200, 150))
+    assert export.picture(tmp_path / "p.png", (200, 150))
     before = dict(cameras.all)
     assert read_metadata(tmp_path / "p.png").scene.cameras == before
     for name in before:

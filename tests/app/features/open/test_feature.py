@@ -320,7 +320,7 @@ def test_results_that_no_file_stores_are_reported(window, qtbot, files, tmp_path
     session.side_views.show("a result", session.document.now)
     smooth(qtbot, session)
     window.refresh()
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert [view.name for view in session.side_views.all] == ["before"]
     np.testing.assert_array_equal(session.side_views.all[0].state.mesh.points, MESHES["one"].points)
@@ -341,7 +341,7 @@ def test_results_stored_in_a_session_are_restored(window, qtbot, files, tmp_path
     now, result = session.document.now.mesh.points, session.side_views.all[0].state.mesh.points
     assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     window.refresh()
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, files["two"])
     open_and_wait(qtbot, window, tmp_path / "p.png")
     np.testing.assert_array_equal(session.document.now.mesh.points, now)
@@ -419,7 +419,7 @@ def mesh(tmp_path):
 def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, pose = change_appearance(window, qtbot)
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
     open_and_wait(qtbot, window, mesh)
     assert window.session.view.look != look
     open_and_wait(qtbot, window, tmp_path / "p.png")
@@ -428,7 +428,7 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     assert window.session.view.look == look
     assert window.canvas.pose == pose
     assert "mesh.vtu is shown with the camera and appearance of p.png." in messages(window)[-1]
-    assert window.features["save"].picture(tmp_path / "again.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "again.png", (300, 200))
     first, second = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
     assert np.abs(first.astype(int) - second).mean() < 0.2
 
@@ -438,7 +438,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     open_and_wait(qtbot, window, mesh)
     smooth(qtbot, window.session)
     window.refresh()
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
     window.session.commands.reset()
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "in which it was smoothed by “Laplacian" in messages(window)[-1]
@@ -449,7 +449,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
 @pytest.mark.slow
 def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(4))
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "The mesh differs from p.png" in messages(window)[-1]
@@ -459,7 +459,7 @@ def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
 def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, monkeypatch):
     open_and_wait(qtbot, window, mesh)
     look, _ = change_appearance(window, qtbot)
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
     (tmp_path / "elsewhere").mkdir()
     moved = mesh.rename(tmp_path / "elsewhere" / "renamed.vtu")
     before = window.session.document.now
@@ -479,7 +479,7 @@ def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qt
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(show={"hidden": frozenset({60})})
     window.refresh()
-    assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
+    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(2))
     with qtbot.waitSignal(window.session.opener.failed):
         window.features["open"].open(tmp_path / "p.png")

@@ -103,7 +103,7 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path):
     save_and_wait(session, tmp_path / "mesh.vtu")
     scene = window.canvas.scene(Page(85, 60, dpi=200, background="#20262e"))
     write_scene(tmp_path / "scene.toml", scene)
-    assert window.features["save"].write_picture(tmp_path / "here.png", scene)
+    assert window.features["export"].write_picture(tmp_path / "here.png", scene)
     meshes = [str(tmp_path / "mesh.vtu")] * 2
     words = ["render", *meshes, "--scene", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "there.png")]
     bare = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}

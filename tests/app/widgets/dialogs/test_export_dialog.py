@@ -86,7 +86,7 @@ SAVING = {
     "ask_target": ("bridge",),
     "ask_list": ("bridge",),
     "ask_recipe_target": (),
-    "ask_film": ("bridge",),
+    "ask_script": ("bridge",),
 }
 OPENING = ("ask_mesh", "ask_recipe")
 

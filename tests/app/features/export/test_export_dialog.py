@@ -1,4 +1,4 @@
-"""Dialog for the settings and path of a picture."""
+"""Dialog for the settings and path of an export."""
 
 import pytest
 from PIL import Image
@@ -6,7 +6,8 @@ from PySide6.QtCore import QSettings, QSize
 from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
-from hexmend_app.features.save.picture_dialog import PictureDialog
+from hexmend_app.features.export.export_dialog import ExportDialog
+from hexmend_app.features.export.picture_settings import PictureSettings
 from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
@@ -20,19 +21,9 @@ def own_settings(tmp_path):
         QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path / "settings"))
 
 
-class Nothing:
-    """Renderer of an empty page."""
-
-    def __init__(self, scene):
-        self.scene = scene
-
-    def image(self):
-        return Image.new("RGB", self.scene.page.size)
-
-
-def made(qtbot, scene=None, draw=Nothing, views=()):
+def made(qtbot, scene=None, draw=lambda scene: Image.new("RGB", scene.page.size), views=()):
     scene = Scene(page=Page(pixels=(640, 480))) if scene is None else scene
-    dialog = PictureDialog(scene, draw, QSize(640, 480), "bridge.png", views)
+    dialog = ExportDialog([PictureSettings(scene, draw, "bridge.png", views)], "picture")
     qtbot.addWidget(dialog)
     dialog.show()
     return dialog
@@ -57,7 +48,7 @@ def said(dialog):
 
 
 def type_into(dialog, name, text):
-    editor = next(form.editors[name] for _, form in dialog.forms if name in form.editors)
+    editor = next(form.editors[name] for _, form in dialog.settings.forms if name in form.editors)
     line = editor if isinstance(editor, QLineEdit) else editor.lineEdit()
     type_text(line, text)
 
@@ -86,19 +77,18 @@ def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatc
     assert bool(dialog.result()) == (answer == QMessageBox.StandardButton.Yes)
 
 
-def test_a_size_is_chosen_in_millimetres_or_pixels(dialog):
-    size = dialog.size_form
-    size.preset.setCurrentIndex(2)
-    size.preset.activated.emit(2)
-    assert (dialog.scene().page.width, dialog.scene().page.height, dialog.scene().page.dpi) == (170, 106, 300)
-    size.dpi.setValue(600)
-    assert dialog.scene().page.size == (4016, 2504)
-    size.unit.setCurrentText("pixels")
-    size.unit.activated.emit(1)
-    assert dialog.scene().page.pixels == (4016, 2504)
-    size.width_box.setValue(1920)
-    size.height_box.setValue(1080)
-    assert size.preset.currentText().startswith("Full HD")
+def test_a_size_is_chosen_or_typed_in_millimetres_or_pixels(dialog):
+    form = dialog.settings.size_form
+    form.size_box.setCurrentIndex(2)
+    page = dialog.settings.scene().page
+    assert (page.width, page.height, page.dpi) == (170, 106, 300)
+    form.dpi.setValue(600)
+    assert dialog.settings.scene().page.size == (4016, 2504)
+    type_text(form.size_box.lineEdit(), "1920 x 1080 px")
+    assert dialog.settings.scene().page.pixels == (1920, 1080)
+    assert not form.dpi.isEnabled()
+    type_text(form.size_box.lineEdit(), "1920 by 1080")
+    assert "expected width × height" in said(dialog)[0]
 
 
 def test_invalid_values_are_reported_and_not_saved(dialog, tmp_path):
@@ -112,22 +102,22 @@ def test_invalid_values_are_reported_and_not_saved(dialog, tmp_path):
     type_into(dialog, "background", "mauve")
     assert "expected white, transparent or #rrggbb" in said(dialog)[0]
     type_into(dialog, "background", "#ff00ff")
-    assert dialog.scene().bar.ticks == (0, 0.5)
-    assert dialog.scene().page.background == "#ff00ff"
+    assert dialog.settings.scene().bar.ticks == (0, 0.5)
+    assert dialog.settings.scene().page.background == "#ff00ff"
 
 
 def test_a_scene_is_saved_and_loaded(dialog, tmp_path):
     type_into(dialog, "edges", "0.4")
-    dialog.save_scene(str(tmp_path / "scene.toml"))
-    assert read_scene(tmp_path / "scene.toml") == dialog.scene()
+    dialog.settings.save_scene(str(tmp_path / "scene.toml"))
+    assert read_scene(tmp_path / "scene.toml") == dialog.settings.scene()
     other = Scene(camera=Camera("+x"), cameras={"side": Camera("-y")}, page=Page(85, 60, dpi=600))
     write_scene(tmp_path / "other.toml", other)
-    dialog.load(str(tmp_path / "other.toml"))
-    assert dialog.scene() == other
-    dialog.camera.setCurrentText("side")
-    assert dialog.scene().camera == Camera("-y")
+    dialog.settings.load(str(tmp_path / "other.toml"))
+    assert dialog.settings.scene() == other
+    dialog.settings.camera.setCurrentText("side")
+    assert dialog.settings.scene().camera == Camera("-y")
     (tmp_path / "bad.toml").write_text("[bar]\ntick = 1")
-    dialog.load(str(tmp_path / "bad.toml"))
+    dialog.settings.load(str(tmp_path / "bad.toml"))
     assert "[bar] has an unknown key 'tick'" in said(dialog)[0]
 
 
@@ -136,6 +126,6 @@ def test_a_page_too_small_for_its_panels_is_reported(qtbot):
     scene = Scene(panels=(PicturePanel(),) * 12, page=Page(pixels=(64, 30), columns=1))
     with pytest.raises(ParameterError, match="too few for 12 panels"):
         draw_page(scene, [subject])
-    dialog = made(qtbot, scene, lambda scene: draw_page(scene, [subject]), [""] * 12)
+    dialog = made(qtbot, scene, lambda scene: draw_page(scene, [subject]).image(), [""] * 12)
     qtbot.waitUntil(lambda: bool(said(dialog)))
     assert "too few for 12 panels" in said(dialog)[0]

@@ -1,25 +1,17 @@
-"""Dialog for the settings and path of a picture, with a preview."""
+"""Settings of a picture: the tables of its scene."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QSize
-from PySide6.QtWidgets import (
-    QFormLayout,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.features.save.preview import Preview
-from hexmend_app.features.save.size_form import SizeForm
+from hexmend_app.features.export.export_settings import ExportSettings
+from hexmend_app.features.export.size_form import SizeForm
 from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
@@ -27,13 +19,11 @@ from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
-from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
-from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.inputs.key_form import KeyForm
 
 if TYPE_CHECKING:
-    from hexmend_app.scene.page.page_renderer import PageRenderer
+    from PIL import Image
 
 _KINDS = "PNG picture (*.png);;PDF (*.pdf);;SVG (*.svg);;TIFF picture (*.tif)"
 
@@ -46,44 +36,30 @@ _GROUPS = (
     ("Axes", "axes", ("show", "place")),
 )
 
-#: Initial size of the dialog relative to the screen.
-_SHARE = 0.7
-
 #: Keys that are shown only for several views.
 _SEVERAL_VIEWS = ("captions", "figures", "columns")
 
 
-class PictureDialog(SaveDialog):
-    """Dialog to edit the scene of a picture, with a preview, and its path.
+class PictureSettings(ExportSettings):
+    """Form that edits the scene of a picture.
 
     Parameters
     ----------
     scene : Scene
         Scene of the view.
     draw : callable
-        Returns the renderer of a scene.
-    view : QSize
-        Size of the 3D view in device pixels.
+        Draws the page of a scene.
     name : str
         Proposed file name.
     views : sequence of str
         Names of the views; empty for one view.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        draw: Callable[[Scene], PageRenderer],
-        view: QSize,
-        name: str,
-        views: Sequence[str] = (),
-        parent: QWidget | None = None,
-    ):
-        super().__init__(tr("the picture"), name, tr(_KINDS), parent)
+    def __init__(self, scene: Scene, draw: Callable[[Scene], Image.Image], name: str, views: Sequence[str] = ()):
+        super().__init__("picture", tr("Picture"), name, tr(_KINDS))
         self._view_scene = self._base = scene
-        self.preview = Preview(draw)
-        self._page_size = QLabel()
-        self.size_form = SizeForm(view, scene.page)
+        self.draw = draw
+        self.size_form = SizeForm(scene.page)
         self.camera = ComboBox()
         set_help(
             self.camera, tr("Camera"), tr("Camera of the window, a saved camera, or a standard view of the whole mesh.")
@@ -94,20 +70,16 @@ class PictureDialog(SaveDialog):
             (table, KeyForm(getattr(scene, table), [name for name in names if several or name not in _SEVERAL_VIEWS]))
             for _, table, names in _GROUPS
         ]
-        self._invalid = False  # an input is invalid
         self._lay_out()
         self._list_cameras()
-        self.preview.drawn.connect(self._on_drawn)
-        self.size_form.changed.connect(self._on_changed)
-        self.camera.activated.connect(self._on_changed)
+        self.size_form.changed.connect(self.changed)
+        self.camera.activated.connect(self.changed)
         for _, form in self.forms:
-            form.changed.connect(self._on_changed)
+            form.changed.connect(self.changed)
         for line in self.captions:
-            line.textEdited.connect(self._on_changed)
-        self._on_changed()
+            line.textEdited.connect(self.changed)
 
     def _lay_out(self) -> None:
-        settings = QWidget()
         captions = QWidget()
         rows = on_grid(QFormLayout(captions))
         rows.setContentsMargins(0, 0, 0, 0)
@@ -117,31 +89,25 @@ class PictureDialog(SaveDialog):
             rows.addRow(title, line)
         groups = [(tr("Size"), self.size_form), (tr("Camera"), self.camera)]
         groups += [(tr(title), form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
-        column = on_grid(QVBoxLayout(settings))
+        column = on_grid(QVBoxLayout(self))
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)
             if title == tr("Text"):
                 column.addWidget(captions)
-        column.addStretch()
-        labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
-        for label in labels:  # align the fields of all groups
-            label.setMinimumWidth(max(other.sizeHint().width() for other in labels))
-        left = fill(QVBoxLayout(), (self.preview, 1), self._page_size)
-        area = scrolled(settings)
-        area.setMinimumWidth(settings.sizeHint().width() + 28)
-        columns = fill(QHBoxLayout(), (left, 1), area)
         load, save = QPushButton(tr("Load scene…")), QPushButton(tr("Save scene…"))
         set_help(load, tr("Load scene…"), tr("Load these settings from a scene file."))
         set_help(save, tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
-        load.clicked.connect(self._ask_load_scene)
-        save.clicked.connect(self._ask_save_scene)
-        self.lay_out_below(columns, load, save)
-        size = self.screen().availableSize() * _SHARE
-        self.resize(size.expandedTo(QSize(1000, 640)))
+        load.clicked.connect(lambda: self.load(ask_scene(self)))
+        save.clicked.connect(lambda: self.save_scene(ask_scene_target(self)))
+        column.addLayout(fill(QHBoxLayout(), load, save, None))
+        column.addStretch()
+        labels = [label for label in self.findChildren(QLabel) if label.buddy() is not None]
+        for label in labels:  # align the fields of all groups
+            label.setMinimumWidth(max(other.sizeHint().width() for other in labels))
 
     def scene(self) -> Scene:
-        """Return the scene set in the dialog.
+        """Return the scene set in the form.
 
         Raises
         ------
@@ -167,28 +133,27 @@ class PictureDialog(SaveDialog):
         for name, form in self.forms:
             form.show_table(getattr(scene, name))
         self._list_cameras()
-        self._on_changed()
+        self.changed.emit()
 
-    def check(self) -> None:
-        """Raise `FileError` or `ParameterError` if the picture cannot be written to the path."""
+    def check(self, path: Path) -> None:
+        """Raise `FileError` if the picture cannot be written to the path."""
         from hexmend_app.scene.page.page_renderer import format_of
 
-        format_of(self.target.path())
-        self.scene()
+        format_of(path)
 
     def load(self, path: str) -> None:
-        """Load a scene from a file, or show the problem."""
-        try:
-            self.show_scene(read_scene(path))
-        except FileError as error:
-            self.refuse(str(error))
+        """Load a scene from a file, or show the problem; "" does nothing."""
+        self._try(lambda: path and self.show_scene(read_scene(path)))
 
     def save_scene(self, path: str) -> None:
-        """Write the scene to a file, or show the problem."""
+        """Write the scene to a file, or show the problem; "" does nothing."""
+        self._try(lambda: path and write_scene(path, self.scene()))
+
+    def _try(self, act: Callable[[], object]) -> None:
         try:
-            write_scene(path, self.scene())
+            act()
         except (FileError, ParameterError) as error:
-            self.refuse(str(error))
+            self.failed.emit(str(error))
 
     def _list_cameras(self) -> None:
         """List the cameras: the camera of the view, the named cameras of the scene, and the standard views."""
@@ -203,40 +168,3 @@ class PictureDialog(SaveDialog):
         for name in DIRECTIONS:
             title = tr("From a corner") if name == "iso" else tr("From {axis}", axis=name.upper().replace("-", "−"))
             self.camera.addItem(title, Camera(name, up=up, parallel=self._view_scene.camera.parallel))
-
-    def _on_changed(self) -> None:
-        try:
-            scene = self.scene()
-        except ParameterError as error:
-            self._invalid = True
-            self.refuse(str(error))
-            return
-        if self._invalid:
-            self._invalid = False
-            self.refuse("")
-        page = scene.page
-        width, height = (side * 25.4 / page.resolution for side in page.size)
-        self._page_size.setText(
-            tr(
-                "{width:.4g} × {height:.4g} mm at {resolution:.0f} dpi: {size:,} × {size2:,} pixels",
-                width=width,
-                height=height,
-                resolution=page.resolution,
-                size=page.size[0],
-                size2=page.size[1],
-            )
-            + (tr(", before cropping") if page.crop else "")
-        )
-        self.preview.show_scene(scene)
-
-    def _on_drawn(self, problem: str) -> None:
-        if not self._invalid:
-            self.refuse(problem)
-
-    def _ask_load_scene(self) -> None:
-        if path := ask_scene(self):
-            self.load(path)
-
-    def _ask_save_scene(self) -> None:
-        if path := ask_scene_target(self):
-            self.save_scene(path)

@@ -1,4 +1,4 @@
-"""Preview of a picture."""
+"""Preview of a page."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from hexmend_app.scene.page.page_renderer import PageRenderer
+    from PIL import Image
 
 #: Milliseconds between the last change and drawing.
 _PAUSE = 150
@@ -28,12 +28,7 @@ _SQUARE = 8
 
 
 class Preview(QWidget):
-    """Small picture of a scene without shading, redrawn shortly after each change.
-
-    Parameters
-    ----------
-    draw : callable
-        Returns the renderer of a scene.
+    """Small picture of a page without shading, redrawn shortly after each change.
 
     Signals
     -------
@@ -43,40 +38,45 @@ class Preview(QWidget):
 
     drawn = Signal(str)
 
-    def __init__(self, draw: Callable[[Scene], PageRenderer], parent: QWidget | None = None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._draw, self._scene = draw, Scene()
-        self.picture = QPixmap()
+        self._scene: Scene | None = None
+        self._picture = QPixmap()
         self.setMinimumSize(360, 280)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        set_help(self, tr("Preview"), tr("Small preview of the picture, without shading."))
+        set_help(self, tr("Preview"), tr("Small preview of the page, without shading."))
         self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
         self._soon.timeout.connect(self._redraw)
 
-    def show_scene(self, scene: Scene) -> None:
+    def show_scene(self, scene: Scene, draw: Callable[[Scene], Image.Image]) -> None:
         """Draw a scene after a short delay."""
-        self._scene = scene
+        self._scene, self._draw = scene, draw
         self._soon.start()
+
+    def stop(self) -> None:
+        """Draw nothing until the next scene is shown."""
+        self._soon.stop()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Redraw in the new size."""
         super().resizeEvent(event)
-        self._soon.start()
+        if self._scene is not None:
+            self._soon.start()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the picture centred, with squares below a transparent background."""
         painter = QPainter(self)
-        size = self.picture.size() / self.devicePixelRatioF()
+        size = self._picture.size() / self.devicePixelRatioF()
         left, top = (self.width() - size.width()) // 2, (self.height() - size.height()) // 2
-        if self._scene.page.ground is None:
+        if self._scene is not None and self._scene.page.ground is None:
             painter.setClipRect(left, top, size.width(), size.height())
             painter.fillRect(self.rect(), FIELD.light)
             for row in range(0, size.height(), _SQUARE):
                 for column in range(row % (2 * _SQUARE), size.width(), 2 * _SQUARE):
                     painter.fillRect(left + column, top + row, _SQUARE, _SQUARE, LINE.light)
             painter.setClipping(False)
-        if not self.picture.isNull():
-            painter.drawPixmap(left, top, self.picture)
+        if not self._picture.isNull():
+            painter.drawPixmap(left, top, self._picture)
             painter.setPen(str(LINE))
             painter.drawRect(left - 1, top - 1, size.width() + 1, size.height() + 1)
 
@@ -84,13 +84,13 @@ class Preview(QWidget):
         ratio = self.devicePixelRatioF()
         try:
             scene = preview_scene(self._scene, (self.width() - 4) * ratio, (self.height() - 4) * ratio)
-            image = self._draw(scene).image().convert("RGBA")
+            image = self._draw(scene).convert("RGBA")
         except HexmendError as error:
             self.drawn.emit(str(error))
             return
         data = QImage(image.tobytes(), *image.size, QImage.Format.Format_RGBA8888)
-        self.picture = QPixmap.fromImage(data)
-        self.picture.setDevicePixelRatio(ratio)
+        self._picture = QPixmap.fromImage(data)
+        self._picture.setDevicePixelRatio(ratio)
         self.update()
         self.drawn.emit("")
 
