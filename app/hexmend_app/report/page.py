@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
+
+from markupsafe import Markup
 
 from hexmend import __version__
 from hexmend.io.storage.atomic import atomic_write
@@ -19,16 +20,12 @@ from hexmend.solver_checks import SOLVERS, Report, check_mesh
 from hexmend.study.machine import machine
 from hexmend.study.table_row import Row
 from hexmend.terminal_text import count_phrase, printable
-from hexmend_app.report import html_elements as html
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures, write_opposite_view
+from hexmend_app.report.templates import ENVIRONMENT, html, read
 from hexmend_app.report.viewer import ViewerState, script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
-from hexmend_app.resources import resource
 from hexmend_app.state.mesh.hex_groups import invalid_counts
-
-#: Content security policy: the page loads no external resources.
-_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
 #: Parts of the figure set in the page, by format.
 _PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
@@ -52,32 +49,20 @@ class Chapter:
     row : sequence of str
         Row of the summary table.
     preface : str
-        HTML.
-    sections : sequence of (heading, HTML)
+    sections : mapping of str to sequence of str
+        Parts of each section as HTML, by its heading.
     """
 
     name: str
     place: str
     row: Sequence[str]
     preface: str
-    sections: Sequence[tuple[str, str]]
+    sections: Mapping[str, Sequence[str]]
 
 
 def figures_of(case: Case) -> tuple[str, ...]:
     """Return the names of the figures of a chapter in the order in which they are drawn."""
     return FIGURES if any(version.history for version in case.versions) else FIGURES[:-1]
-
-
-def chapter(
-    case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
-) -> Chapter:
-    """Return the chapter on a mesh; see `draw_chapter` for the parameters."""
-    steps = draw_chapter(case, style, repeat, interactive=interactive, place=place)
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value
 
 
 def draw_chapter(
@@ -101,7 +86,7 @@ def draw_chapter(
     ------
     Figure
     """
-    view = yield from _figures(case, style, interactive, place)
+    view = yield from _figures(case, style, interactive)
     locked = [Locked.of(one.mesh, one.figures) for one in case.versions]
     sections = {
         "The mesh": view,
@@ -113,7 +98,7 @@ def draw_chapter(
         "Source": [_origin(case)],
     }
     if repeat:
-        sections["Commands to reproduce this"] = [html.commands(map(command_line, repeat))]
+        sections["Commands to reproduce this"] = [html.commands([*map(command_line, repeat)])]
     if not interactive:  # on paper the table is on the first page
         sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary
@@ -121,8 +106,7 @@ def draw_chapter(
     row += [_change(one, other, format_quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
-    written = [(name, "\n".join(filter(None, parts))) for name, parts in sections.items()]
-    return Chapter(case.name, place, row, _preface(case), written)
+    return Chapter(case.name, place, row, _preface(case), sections)
 
 
 def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: bool) -> str:
@@ -137,40 +121,18 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
     interactive : bool
         True for a page with scripts, which need a browser.
     """
-    style = resource("report/page.css").read_text(encoding="utf-8")
-    time = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     head = ["mesh", "hexes", "invalid", "q min", "q mean", "scaled Jacobian min"]
-    summary = Table("", head, [one.row for one in chapters])
-    parts = [
-        "<!DOCTYPE html>",
-        '<html lang="en"><head><meta charset="utf-8">',
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
-        '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>{escape(title)}</title><style>{style}</style></head><body>",
-        f"<header>{html.heading(1, title)}",
-        f'<p class="soft">Created by Hexmend {escape(__version__)} on {time}.</p></header><main>',
-        html.table(summary),
-    ]
-    if len(chapters) > 1:
-        parts += [html.contents((one.place, one.name, _places(one)) for one in chapters)]
-    for number, chapter in enumerate(chapters, 1):
-        first = {"class_": "first"} if number == 1 else {}
-        parts += ["<section>", html.heading(2, chapter.name, id=chapter.place, **first), chapter.preface]
-        for (place, heading), (_, text) in zip(_places(chapter), chapter.sections, strict=True):
-            parts += [html.heading(3, heading, id=place), text]
-        parts += ["</section>"]
-    written = (
-        f"<p>Command of this report:</p>{html.commands([command])}" if command else "<p>Exported in the viewer.</p>"
+    text = ENVIRONMENT.get_template("page.html").render(
+        title=title,
+        style=read("page.css"),
+        version=__version__,
+        time=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        summary=Table("", head, [one.row for one in chapters]),
+        chapters=chapters,
+        command=command,
+        script=script() if interactive else "",
     )
-    parts += [f"</main><footer>{written}</footer>"]
-    parts += [f"<script>{script()}</script>"] if interactive else []
-    document = "\n".join([*parts, "</body></html>"])
-    return document.encode("utf-8", "replace").decode("utf-8")  # file names can have undecodable bytes
-
-
-def _places(chapter: Chapter) -> list[tuple[str, str]]:
-    """Return the ids and headings of the sections of a chapter."""
-    return [(f"{chapter.place}-{number}", heading) for number, (heading, _) in enumerate(chapter.sections, 1)]
+    return text.encode("utf-8", "replace").decode("utf-8")  # file names can have undecodable bytes
 
 
 def write_page(path: Path, text: str) -> None:
@@ -193,7 +155,7 @@ def _preface(case: Case) -> str:
     ]
     if case.interrupted:
         sentences.append("The runs were interrupted: the report shows the results so far.")
-    return html.paragraph(" ".join(sentences))
+    return " ".join(sentences)
 
 
 def _worse(case: Case) -> list[str]:
@@ -222,7 +184,7 @@ def _solver_verdict(report: Report) -> str:
     return report.verdict if report.verdict == "passed" else f"{report.verdict} ({count_phrase(count, 'check')})"
 
 
-def _figures(case: Case, style: Style, interactive: bool, place: str) -> Generator[Figure, None, list[str]]:
+def _figures(case: Case, style: Style, interactive: bool) -> Generator[Figure, None, list[str]]:
     """Draw the pictures one by one, and return the interactive view of the mesh and the pictures as HTML."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
         figures = [write_opposite_view(case, Path(folder), style)]
@@ -231,13 +193,16 @@ def _figures(case: Case, style: Style, interactive: bool, place: str) -> Generat
             for figure in write_figures(case, Path(folder), options, _PICTURES[suffix]):
                 figures.append(figure)
                 yield figure
-        pictures = {
-            figure.part: html.picture(figure.paths[0], figure.caption, f"{place}-{figure.part}-") for figure in figures
-        }
+        pictures = {figure.part: html.picture(figure.paths[0], figure.caption) for figure in figures}
     states = [ViewerState(version.name, version.mesh.points) for version in case.versions]
     view = viewer(case.initial.mesh, states, pictures["surface"]) if interactive else pictures["surface"]
     plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
-    return [view, pictures["behind"], pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
+    return [
+        view,
+        pictures["behind"],
+        pictures["cut"],
+        Markup('<div class="pair">{}</div>').format(Markup().join(plots)),
+    ]
 
 
 def _failed(row: Row) -> str:
@@ -245,10 +210,12 @@ def _failed(row: Row) -> str:
 
 
 def _worst(case: Case, locked: Sequence[Locked]) -> list[str]:
+    tables = [
+        worst_table(one.name, one.mesh, one.figures, hexes) for one, hexes in zip(case.versions, locked, strict=True)
+    ]
     return [
-        f'<div data-version="{number}">'
-        f"{html.table(worst_table(version.name, version.mesh, version.figures, locked_hexes), words=1)}</div>"
-        for number, (version, locked_hexes) in enumerate(zip(case.versions, locked, strict=True))
+        Markup('<div data-version="{}">{}</div>').format(number, html.table(table, words=1))
+        for number, table in enumerate(tables)
     ]
 
 
@@ -260,7 +227,7 @@ def _locked(case: Case, locked: Sequence[Locked]) -> list[str]:
         if (advice := version.advice) is not None:
             state = " ".join(filter(None, [advice.state, advice.surface]))
             parts.append(html.paragraph(f"{version.name}: {state}"))
-            parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in advice.suggestions))
+            parts.append(html.listed([f"{tip.title}: {tip.text}" for tip in advice.suggestions]))
     return parts
 
 

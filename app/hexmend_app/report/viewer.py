@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import base64
 import gzip
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric, measure
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
-from hexmend_app.resources import resource
+from hexmend_app.report.templates import html, read
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS, invalid_kinds
 
 #: Maximum number of hexes in a page; browsers cannot open larger pages.
@@ -50,10 +50,10 @@ class ViewerState:
 
 def script() -> str:
     """Return the scripts of the page."""
-    return "\n".join(resource(f"report/{name}").read_text(encoding="utf-8") for name in _SCRIPTS)
+    return "\n".join(map(read, _SCRIPTS))
 
 
-def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
+def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: Markup) -> Markup:
     """Return the HTML of an interactive view of a mesh.
 
     Parameters
@@ -61,31 +61,17 @@ def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
     mesh : Mesh
     states : sequence of ViewerState
         The original mesh first, then the results.
-    picture : str
-        HTML shown without WebGL and in print.
+    picture : Markup
+        Shown without WebGL and in print.
     """
     if mesh.n_hexes > MOST_HEXES:
         message = f"This mesh is too large to be interactive: {mesh.n_hexes:,} hexes, at most {MOST_HEXES:,}."
         message += " Open it in the viewer: hexmend MESH"
-        return f'<div class="viewer">{picture}<p class="cannot screen">{message}</p></div>'
+        return Markup('<div class="viewer">{}<p class="cannot screen">{}</p></div>').format(picture, message)
     head, blob = packed(mesh, states)
-    inverted, inside = ("#{:02x}{:02x}{:02x}".format(*special.colour) for special in INVALID_COLOURS)
-    parts = [
-        f'<div class="viewer" style="--inverted: {inverted}; --inside: {inside}">',
-        picture,
-        '<p class="cannot screen" hidden></p>',
-        '<noscript><p class="cannot">Rotating the mesh needs JavaScript.</p></noscript>',
-        resource("report/viewer.html").read_text(encoding="utf-8"),
-        f'<script type="application/json" data-of="head">{in_script(head)}</script>',
-        f'<script type="text/plain" data-of="bytes">{blob}</script>',
-        "</div>",
-    ]
-    return "\n".join(parts)
-
-
-def in_script(data: Any) -> str:
-    """Return JSON that is safe inside a script element."""
-    return json.dumps(data, allow_nan=False).replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    return html.viewer(
+        picture, ["#{:02x}{:02x}{:02x}".format(*special.colour) for special in INVALID_COLOURS], head, blob
+    )
 
 
 def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], str]:

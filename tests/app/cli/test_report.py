@@ -154,7 +154,7 @@ def test_a_report_is_written_though_signals_come_in_its_runs_and_while_it_is_dra
     hexmend, mesh_file, tmp_path, capsys, interrupting
 ):
     interrupting(case, "run_one", signal.SIGTERM)  # the first: this run ends after its iteration
-    interrupting(page, "chapter", signal.SIGTERM)
+    interrupting(page, "draw_chapter", signal.SIGTERM)
     path = tmp_path / "report.html"
     assert hexmend("report", mesh_file, *METHODS, "-o", path) == 128 + signal.SIGTERM
     assert "The runs were interrupted" in path.read_text(encoding="utf-8")

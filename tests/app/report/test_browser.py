@@ -9,12 +9,22 @@ import pytest
 from hexmend.quality import METRICS, measure, rank_worst
 from hexmend_app.picture import Page, Scene
 from hexmend_app.report.figure_set import Style
-from hexmend_app.report.page import chapter, page, write_page
+from hexmend_app.report.page import draw_chapter, page, write_page
 from hexmend_app.scene.render.colour_count import count_colours
 
 pytestmark = pytest.mark.slow
 
 STYLE = Style(Scene(page=Page(dpi=72)))
+
+
+def chapter(*args, **options):
+    """Return a chapter of a report."""
+    steps = draw_chapter(*args, **options)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
 
 
 @pytest.fixture(scope="module")

@@ -11,12 +11,12 @@ from PIL import Image
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.report.tables import Table
-from hexmend_app.report import html_elements as html
+from hexmend_app.report.templates import html
 from hexmend_app.resources import resource
 
 #: A table after its heading, each part with a mark by which it is found.
-_TABLE = html.table(Table("The worst", ["hex", "q"], [[str(k), "0.5"] for k in range(8)]))
-_MARKED = html.heading(3, "The worst hexes", id="heading") + _TABLE.replace("<caption", '<caption id="title"').replace(
+_TABLE = str(html.table(Table("The worst", ["hex", "q"], [[str(k), "0.5"] for k in range(8)])))
+_MARKED = '<h3 id="heading">The worst hexes</h3>' + _TABLE.replace("<caption", '<caption id="title"').replace(
     "<tbody><tr", '<tbody><tr id="row"'
 )
 
