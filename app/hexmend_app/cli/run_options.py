@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Collection, Mapping
-from typing import Any
+from collections.abc import Collection
 
 from hexmend.cli.arguments.options import add_settings
 from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
-from hexmend.parameters import declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import DEFAULT_METHOD, Smoother
@@ -62,22 +60,10 @@ def scene(args: argparse.Namespace) -> Scene:
 
 def words(args: argparse.Namespace, without: Collection[str] = ()) -> list[str]:
     """Return the given options as words of a command line."""
-    return _words({name: value for name, value in vars(args).items() if name not in without})
-
-
-def method_words(args: argparse.Namespace) -> list[str]:
-    """Return the options of the methods as words of a command without pictures; an empty list without methods."""
-    if args.methods == NONE:
-        return []
-    known = ("set", "boundary", "goal", "target", "layers", *(limit.name for limit in declared(StoppingCriteria)))
-    return ["--methods", args.methods or DEFAULT_METHOD, *_words({name: getattr(args, name) for name in known})]
-
-
-def _words(values: Mapping[str, Any]) -> list[str]:
     result: list[str] = []
-    for name, value in values.items():
+    for name, value in vars(args).items():
         option = f"--{name.replace('_', '-')}"
-        if value in (None, False, []):
+        if name in without or value in (None, False, []):
             continue
         if value is True or value == "true":
             result.append(option)

@@ -20,7 +20,7 @@ from hexmend.solver_checks import SOLVERS, Report, check_mesh
 from hexmend.study.machine import machine
 from hexmend.study.table_row import Row
 from hexmend.terminal_text import count_phrase, printable
-from hexmend_app.report.case import Case, Version, command_line
+from hexmend_app.report.case import Case, Version
 from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures, write_opposite_view
 from hexmend_app.report.templates import ENVIRONMENT, html, read
 from hexmend_app.report.viewer import ViewerState, script, viewer
@@ -66,7 +66,7 @@ def figures_of(case: Case) -> tuple[str, ...]:
 
 
 def draw_chapter(
-    case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
+    case: Case, style: Style, *, interactive: bool, place: str = "mesh-1"
 ) -> Generator[Figure, None, Chapter]:
     """Draw the figures of the chapter on a mesh one by one, and return the chapter.
 
@@ -75,8 +75,6 @@ def draw_chapter(
     case : Case
     style : Style
         Style of the figures.
-    repeat : sequence of sequence of str
-        Commands that reproduce the results, as words; none for results of the window.
     interactive : bool
         True for a mesh that can be rotated, which needs a browser.
     place : str
@@ -97,8 +95,6 @@ def draw_chapter(
         "Runs": _runs(case),
         "Source": [_origin(case)],
     }
-    if repeat:
-        sections["Commands to reproduce this"] = [html.commands([*map(command_line, repeat)])]
     if not interactive:  # on paper the table is on the first page
         sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary

@@ -45,7 +45,7 @@ def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_pat
     assert "<h1>a &lt; b</h1>" in text
     for said in ("laplacian", "mend", "The worst hexes", "Locked hexes", "max_iterations 8", "SHA-256"):
         assert said in text
-    assert f"hexmend figures {mesh_file} {' '.join(METHODS)} -o bridge-figures" in text
+    assert f"hexmend report {mesh_file} {' '.join(METHODS)} --title" in text
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
 
 
@@ -116,20 +116,6 @@ def test_runs_without_enough_memory_are_rejected(hexmend, mesh_file, tmp_path, m
     assert hexmend(command, mesh_file, *others) == 3
     assert "--force" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
-
-
-def test_meshes_of_one_name_get_folders_of_their_own(hexmend, mesh_file, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    paths = [Path(name) for name in ("a/part.vtu", "b/part.vtu", "c/b/part.vtu")]
-    for path in paths:
-        path.parent.mkdir(parents=True)
-        path.write_bytes(mesh_file.read_bytes())
-    assert hexmend("report", *paths, "--methods", "laplacian", "--max-iterations", "1", "-o", "report.html") == 0
-    page = Path("report.html").read_text(encoding="utf-8")
-    for path, folder in zip(paths, ("part", "b-part", "part-2"), strict=True):
-        (figures,) = (line for line in page.splitlines() if f"hexmend figures {path} " in line)
-        assert f"-o {folder}-figures" in figures
-        assert f"-o {folder}-results" in page
 
 
 @pytest.fixture

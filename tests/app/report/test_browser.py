@@ -35,9 +35,7 @@ def written(case, tmp_path_factory):
     path = tmp_path_factory.mktemp("report") / "report.html"
     write_page(
         path,
-        page(
-            "Report", [chapter(case, STYLE, [["info", "mesh"]], interactive=True)], "hexmend report", interactive=True
-        ),
+        page("Report", [chapter(case, STYLE, interactive=True)], "hexmend report", interactive=True),
     )
     return path
 
@@ -202,7 +200,7 @@ def test_without_webgl_the_picture_is_shown_instead(browser, written):
 @pytest.mark.slow
 def test_the_contents_link_to_all_sections(browser, case, tmp_path):
     path = tmp_path / "report.html"
-    told = [chapter(case, STYLE, [], interactive=False, place=place) for place in ("mesh-1", "mesh-2")]
+    told = [chapter(case, STYLE, interactive=False, place=place) for place in ("mesh-1", "mesh-2")]
     write_page(path, page("Two", told, "hexmend report", interactive=False))
     with browser() as opened:
         opened.page.goto(path.as_uri())
@@ -231,7 +229,7 @@ def test_names_are_escaped(browser, case, tmp_path):
     versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))
     hostile = replace(case, name=name, versions=versions)
     path = tmp_path / "report.html"
-    write_page(path, page(name, [chapter(hostile, STYLE, [["info", name]], interactive=True)], name, interactive=True))
+    write_page(path, page(name, [chapter(hostile, STYLE, interactive=True)], name, interactive=True))
     with browser() as opened:
         opened.open(path)
         assert opened.page.title() == name

@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
         check_pdf()
     style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
     check_pages(style, 1 + len(smoothers))
-    writer = _ChapterWriter(args, options, smoothers, stop, names, style, interactive)
+    writer = _ChapterWriter(args, smoothers, stop, names, style, interactive)
     with FinishWriting() as writing:
         interrupted = writer.write(writing)
         title = printable(args.title or "") or f"Report on {', '.join(chapter.name for chapter in writer.chapters)}"
@@ -64,14 +64,12 @@ class _ChapterWriter:
     """Writer of the chapters of a report, one for each mesh."""
 
     args: argparse.Namespace
-    options: list[str]
     smoothers: list[Smoother | Recipe]
     stop: StoppingCriteria
     names: list[str]
     style: Style
     interactive: bool
     chapters: list[Chapter] = field(default_factory=list)
-    folders: list[str] = field(default_factory=list)
 
     def write(self, writing: FinishWriting) -> CleanExit | FinishWriting | None:
         """Add the chapters of all meshes; return the block interrupted by a signal, which ends the report early."""
@@ -88,43 +86,19 @@ class _ChapterWriter:
                 if not self.chapters:
                     raise
                 return signals
-            self._add(path, done)
+            self._add(done)
             if done.interrupted:
                 return signals
             if writing.asked and len(self.chapters) < len(self.args.mesh):
                 return writing
         return None
 
-    def _add(self, path: str, done: case.Case) -> None:
-        self.folders.append(_unique_name(self.folders, done.name, printable(Path(path).resolve().parent.name)))
-        commands = _commands(path, self.folders[-1], self.options, run_options.method_words(self.args))
+    def _add(self, done: case.Case) -> None:
         place = f"mesh-{len(self.chapters) + 1}"
-        steps = page.draw_chapter(done, self.style, commands, interactive=self.interactive, place=place)
+        steps = page.draw_chapter(done, self.style, interactive=self.interactive, place=place)
         for _ in show_count(self._drawn(steps), len(page.figures_of(done)), f"drawing figures of {done.name}"):
             pass
 
     def _drawn(self, steps: Generator[Figure, None, Chapter]) -> Iterator[Figure]:
         """Yield the figures of a chapter one by one, and add the chapter."""
         self.chapters.append((yield from steps))
-
-
-def _unique_name(used: list[str], name: str, folder: str) -> str:
-    """Return an unused name for the folders of a mesh: `name`, if necessary with the folder's name or a number.
-
-    >>> _unique_name(["part"], "part", "b"), _unique_name(["part", "b-part"], "Part", "b")
-    ('b-part', 'Part-2')
-    """
-    known = {text.lower() for text in used}  # some file systems ignore case
-    names = (
-        name,
-        *([f"{folder}-{name}"] if folder else []),
-        *(f"{name}-{number}" for number in range(2, len(used) + 3)),
-    )
-    return next(free for free in names if free.lower() not in known)
-
-
-def _commands(path: str, name: str, options: list[str], methods: list[str]) -> list[list[str]]:
-    """Return the commands that reproduce the results for a mesh."""
-    name = f"./{name}" if name.startswith("-") else name  # otherwise it would be read as an option
-    result = [["info", path, "--doctor", "--metrics"], ["figures", path, *options, "-o", f"{name}-figures"]]
-    return [*result, ["compare", path, *methods, "--write-meshes", "-o", f"{name}-results"]] if methods else result

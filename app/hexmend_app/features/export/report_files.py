@@ -83,7 +83,7 @@ def report(session: Session, scene: Scene, path: Path, stem: str) -> Generator[F
     case = Case(name, source, tuple(versions_of(session)), stop=None)
     scene = stationary(scene)
     style = Style(replace(scene, page=replace(scene.page, dpi=_DPI)))
-    chapter = yield from draw_chapter(case, style, [], interactive=interactive)
+    chapter = yield from draw_chapter(case, style, interactive=interactive)
     text = page(tr("Report on {name}", name=name or stem), [chapter], "", interactive=interactive)
     (write_page if interactive else write_pdf)(path, text)
 
