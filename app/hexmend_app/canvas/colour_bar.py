@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -13,9 +12,9 @@ from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.canvas.name_list import NameList
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
-from hexmend_app.scene.colour.colouring import end_label
-from hexmend_app.scene.colour.ticks import ticks_with_ends
-from hexmend_app.theme.palette import INVALID_INSIDE, INVERTED, LINE, MUTED, TEXT
+from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
+from hexmend_app.scene.colour.colouring import Colouring
+from hexmend_app.theme.palette import LINE, MUTED, TEXT
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, smaller, tabular
 from hexmend_app.translation import tr
@@ -31,11 +30,6 @@ _MAX_TICKS = 11
 class ColourBar(QFrame):
     """Colour bar: a gradient with ticks, and below it swatches of special colours.
 
-    Parameters
-    ----------
-    label : str
-        Name of the quantity.
-
     Signals
     -------
     special_clicked(str)
@@ -44,82 +38,53 @@ class ColourBar(QFrame):
 
     special_clicked = Signal(str)
 
-    def __init__(self, label: str = "q(H)", parent: QWidget | None = None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("colour_bar")
         self.setFont(tabular(smaller(self.font())))
-        self._title = QLabel(label)
+        self._title = QLabel()
         self._title.setWordWrap(True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         self._gradient = _Gradient()
         self._names = NameList()
-        self._names.hide()
         self.swatches: list[SwatchButton] = []
         self._layout = fill(
             QVBoxLayout(self), self._title, (self._gradient, 1), (self._names, 1), margins=(8, 8, 8, 4), spacing=4
         )
-        self.set_special([("inverted", 0, INVERTED), ("invalid inside", 0, INVALID_INSIDE)])
+        self.show_colouring(Colouring("q(H)", 0.0, 1.0, COLOUR_MAPS[DEFAULT_MAP].table))
 
-    def set_table(self, table: np.ndarray) -> None:
-        """Set the colours, (256, 3) uint8, from the lowest to the highest value."""
-        table = np.ascontiguousarray(table, dtype=np.uint8)
-        if table.ndim != 2 or table.shape[1] != 3:
-            raise ValueError(f"the colour table has shape {table.shape}: expected (n, 3)")
-        self._gradient.table = table
+    def show_colouring(self, colouring: Colouring, counts: Sequence[int] = ()) -> None:
+        """Show a colouring, and the numbers of hexes with its special colours, by default none."""
+        self._title.setText(tr(colouring.title))
+        self._gradient.colouring = colouring
+        self._gradient.setVisible(not colouring.names)
         self._gradient.update()
-
-    def set_label(self, label: str) -> None:
-        """Set the name of the quantity."""
-        if label != self._title.text():
-            self._title.setText(label)
-            self._describe()
-
-    def set_range(self, low: float, high: float, beyond: tuple[bool, bool] = (False, False)) -> None:
-        """Set the values at the ends of the gradient."""
-        if (low, high, beyond) != (*self.range, self._gradient.beyond):
-            self._gradient.low, self._gradient.high, self._gradient.beyond = float(low), float(high), beyond
-            self._gradient.update()
-            self._describe()
-
-    def set_names(self, names: tuple[str, ...]) -> None:
-        """Show names with the colours of the table in place of the gradient; none to show the gradient."""
-        self._names.show_names(names, self._gradient.table)
-        if bool(names) == self._names.isHidden():
-            self._names.setVisible(bool(names))
-            self._gradient.setVisible(not names)
-            self._describe()
-
-    @property
-    def range(self) -> tuple[float, float]:
-        """Values at the ends of the gradient."""
-        return self._gradient.low, self._gradient.high
-
-    def ticks(self, length: float) -> list[float]:
-        """Return the tick values for a gradient with a height in pixels."""
-        return self._gradient.ticks(length)
-
-    def set_special(self, special_colours: Sequence[tuple[str, int, Any]]) -> None:
-        """Set the special colours: name, number of hexes, colour as name or (red, green, blue) bytes."""
-        while len(self.swatches) < len(special_colours):
+        self._names.show_names(colouring.names, colouring.table)
+        self._names.setVisible(bool(colouring.names))
+        kinds = colouring.special_colours
+        while len(self.swatches) < len(kinds):
             swatch = SwatchButton()
             swatch.clicked.connect(lambda _=False, swatch=swatch: self.special_clicked.emit(swatch.name))
             self._layout.addWidget(swatch)
             if self.swatches:
                 QWidget.setTabOrder(self.swatches[-1], swatch)
             self.swatches.append(swatch)
-        for swatch in self.swatches[len(special_colours) :]:
-            swatch.hide()
-        for swatch, (name, count, colour) in zip(self.swatches, special_colours, strict=False):
-            is_colour = isinstance(colour, str | QColor)
-            swatch.show_kind(name, int(count), QColor(colour) if is_colour else QColor(*map(int, colour)))
-            swatch.show()
+        for swatch, special, count in zip(self.swatches, kinds, counts or [0] * len(kinds), strict=False):
+            swatch.show_kind(special.name, count, QColor(*special.colour))
+        for number, swatch in enumerate(self.swatches):
+            swatch.setVisible(number < len(kinds))
         self._describe()
 
+    def ticks(self, length: float) -> list[float]:
+        """Return the tick values for a gradient with a height in pixels."""
+        return self._gradient.ticks(length)
+
     def _describe(self) -> None:
-        if self._names.names:
+        colouring = self._gradient.colouring
+        if colouring.names:
             self._describe_names()
             return
-        low, high = (self._gradient.text(end) for end in self.range)
+        low, high = colouring.label(colouring.low), colouring.label(colouring.high)
         label, shown = self._title.text(), [swatch for swatch in self.swatches if not swatch.isHidden()]
         set_help(
             self,
@@ -165,21 +130,15 @@ class _Gradient(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
-        self.low, self.high = 0.0, 1.0
-        self.beyond = (False, False)
+        self.colouring = Colouring("", 0.0, 1.0, np.zeros((1, 3), dtype=np.uint8))
         self._key: tuple = ()  # values that `_drawn` depends on
         self._drawn = QPixmap()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
-    def text(self, value: float) -> str:
-        """Format a value for a tick."""
-        return end_label(value, self.low, self.high, self.beyond)
-
     def sizeHint(self) -> QSize:
         """Return the width of gradient and numbers; a minimum width makes changes rare."""
         metrics = QFontMetricsF(self.font())
-        texts = ["0.000", *(self.text(tick) for tick in self.ticks(_HEIGHT / 2))]
+        texts = ["0.000", *(self.colouring.label(tick) for tick in self.ticks(_HEIGHT / 2))]
         widest = max(map(metrics.horizontalAdvance, texts))
         return QSize(math.ceil(_THICKNESS + _TICK + _GAP + widest), 40)
 
@@ -190,18 +149,19 @@ class _Gradient(QWidget):
     def ticks(self, length: float) -> list[float]:
         """Return both ends, and round values between them whose labels fit into a height in pixels."""
         space = 2 * QFontMetricsF(self.font()).height() / max(length, 1)
-        return ticks_with_ends(self.low, self.high, space, _MAX_TICKS)
+        return self.colouring.ticks(space, _MAX_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
-        scale = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.beyond)
-        key = (*scale, self.font().key(), str(LINE), str(MUTED), str(TEXT))
+        shown = self.colouring
+        scale = shown.table.tobytes(), shown.low, shown.high, shown.beyond, self.font().key()
+        key = self.size(), self.devicePixelRatioF(), *scale, str(LINE), str(MUTED), str(TEXT)
         if key != self._key:
             self._key, self._drawn = key, self._draw()
         QPainter(self).drawPixmap(0, 0, self._drawn)
 
     def _draw(self) -> QPixmap:
-        ratio = self.devicePixelRatioF()
+        colouring, ratio = self.colouring, self.devicePixelRatioF()
         pixmap = QPixmap(self.size() * ratio)
         pixmap.setDevicePixelRatio(ratio)
         pixmap.fill(Qt.GlobalColor.transparent)
@@ -211,16 +171,16 @@ class _Gradient(QWidget):
         half = metrics.height() / 2
         bar = QRectF(0.0, half, _THICKNESS, max(self.height() - 2 * half, 1.0))
         # A column of 256 pixels, which the painter stretches at the resolution of the screen.
-        table = np.ascontiguousarray(self.table[::-1])
+        table = np.ascontiguousarray(colouring.table[::-1])
         painter.drawImage(bar, QImage(table.tobytes(), 1, len(table), 3, QImage.Format.Format_RGB888))
         painter.setPen(QPen(QColor(str(LINE)), 0))
         painter.drawRect(bar)
         for value in self.ticks(bar.height()):
-            share = (value - self.low) / (self.high - self.low)
+            share = (value - colouring.low) / (colouring.high - colouring.low)
             y = round(bar.bottom() - share * bar.height())
             painter.setPen(QPen(QColor(str(MUTED)), 1))
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
             painter.setPen(QColor(str(TEXT)))
-            painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), self.text(value))
+            painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), colouring.label(value))
         painter.end()
         return pixmap

@@ -11,7 +11,6 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.views.panes import Panes
-from hexmend_app.translation import tr
 from hexmend_app.widgets.overlay import MARGIN, Overlay
 
 #: Maximum share of the width for a strip next to several views; a wider colour bar covers them.
@@ -52,12 +51,8 @@ class ViewLegend:
             bar.hide()
         else:
             bar.setVisible(not view.frame.look.colours.neutral)
-            bar.set_label(tr(colouring.title))
-            bar.set_table(colouring.table)
-            bar.set_range(colouring.low, colouring.high, colouring.beyond)
-            bar.set_names(colouring.names)
             single = len(self._panes.all) == 1  # the captions of several views show the numbers
-            bar.set_special([(name, n if single else 0, colour) for name, n, colour in view.colours.special_counts])
+            bar.show_colouring(colouring, [n for _, n, _ in view.colours.special_counts] if single else [])
         self.place()
         captions = self._frame.captions
         with_counts = self.with_counts(captions)

@@ -8,7 +8,7 @@ import shiboken6
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QColor, QImage, QMouseEvent
+from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
@@ -18,6 +18,7 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.colour.colouring import Colouring, SpecialColour
 from hexmend_app.scene.geometry.frame import Frame
 from tests.app.driving import LEFT, heard_from, turn
 from tests.core.grids import grid
@@ -201,7 +202,7 @@ def pixels(widget):
 
 def test_the_gradient_shows_the_whole_table_in_order(shown, ramp):
     bar = ColourBar()
-    bar.set_table(ramp)
+    bar.show_colouring(Colouring("q(H)", 0.0, 1.0, ramp))
     shown(bar, 90, 500)
     rgb = pixels(bar)
     of_table = (rgb[..., 2] == 60) & (rgb[..., 0].astype(int) + rgb[..., 1] == 255)
@@ -218,36 +219,39 @@ def test_the_gradient_shows_the_whole_table_in_order(shown, ramp):
 def test_ticks_include_both_ends_and_labels_do_not_overlap(low, high, length):
     assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
     bar = ColourBar()
-    bar.set_range(low, high)
+    bar.show_colouring(Colouring("q(H)", low, high, np.zeros((256, 3), np.uint8)))
     ticks = bar.ticks(length)
     assert (ticks[0], ticks[-1]) == (low, high)
     if len(ticks) > 2:
         assert np.diff(ticks).min() / (high - low) * length >= 1.9 * bar.fontMetrics().height()
 
 
+KINDS = tuple(
+    SpecialColour(name, colour)
+    for name, colour in (
+        ("newly invalid", (0x12, 0xAB, 0x34)),
+        ("still invalid", (0xAB, 0x12, 0x34)),
+        ("mended", (0x34, 0x12, 0xAB)),
+    )
+)
+
+
 def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
     bar = ColourBar()
-    bar.set_table(ramp)
-    bar.set_range(-0.25, 0.25)
-    kinds = [
-        ("newly invalid", 3, (0x12, 0xAB, 0x34)),
-        ("still invalid", 0, "#ab1234"),
-        ("mended", 12, QColor("#3412ab")),
-    ]
-    bar.set_special(kinds)
+    bar.show_colouring(Colouring("q(H)", -0.25, 0.25, ramp, KINDS), [3, 0, 12])
     shown(bar, 130)
     rgb = pixels(bar)
-    for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
-        assert (rgb == colour).all(axis=2).sum() > 80
+    for special in KINDS:
+        assert (rgb == special.colour).all(axis=2).sum() > 80
     assert bar.accessibleDescription() == ("newly invalid (3); still invalid; mended (12); q(H) from −0.25 to 0.25")
-    bar.set_special(kinds[2:])
+    bar.show_colouring(Colouring("q(H)", -0.25, 0.25, ramp, KINDS[2:]), [12])
     assert bar.accessibleDescription().startswith("mended (12); q(H)")
     assert [one.isVisible() for one in bar.swatches] == [True, False, False]
 
 
-def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(shown):
+def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(shown, ramp):
     bar = ColourBar()
-    bar.set_special([("newly invalid", 3, "#12ab34"), ("still invalid", 0, "#ab1234")])
+    bar.show_colouring(Colouring("q(H)", 0.0, 1.0, ramp, KINDS[:2]), [3, 0])
     shown(bar, 130)
     asked = heard_from(bar.special_clicked)
     for swatch in bar.swatches:

@@ -12,6 +12,7 @@ from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
 from hexmend_app.picture.colours import MATERIAL, Colours, Range, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, ROUNDING
 from hexmend_app.scene.colour.material_colours import material_table
+from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme import palette
 
@@ -122,6 +123,20 @@ class Colouring:
         if self.names:
             return self.names[round(value)]
         return end_label(value, self.low, self.high, self.beyond)
+
+    def ticks(self, space: float, wanted: int | tuple[float, ...]) -> list[float]:
+        """Return the tick values of the colour bar.
+
+        Parameters
+        ----------
+        space : float
+            Minimum distance of values, as a fraction of the bar.
+        wanted : int or tuple of float
+            Maximum number of values, both ends first, or the values.
+        """
+        if isinstance(wanted, tuple):
+            return [value for value in wanted if self.low <= value <= self.high]
+        return ticks_with_ends(self.low, self.high, space, wanted)[: wanted if wanted < 2 else None]
 
 
 def invalid_kinds(quality: ElementQuality) -> np.ndarray:

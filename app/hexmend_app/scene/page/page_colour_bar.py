@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from hexmend_app.picture import TextPlace
-from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.page.name_legend import MOST_BELOW, entry_width, rows_of
@@ -26,14 +25,6 @@ def draw_bar(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
         _draw_right(drawing, layout, drawn)
 
 
-def ticks(layout: Layout, drawn: Rasters, space: float) -> list[float]:
-    """Return the tick values; `space` is the fraction of the bar that each needs."""
-    option, colouring = layout.scene.bar.ticks, drawn.colouring
-    if isinstance(option, tuple):
-        return [value for value in option if colouring.low <= value <= colouring.high]
-    return ticks_with_ends(colouring.low, colouring.high, space, option)[: option if option < 2 else None]
-
-
 def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     letter, box, colouring = drawing.letters.height, layout.bar_place, drawn.colouring
     swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
@@ -52,7 +43,7 @@ def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     drawing.image(colouring.table[None], bar)
     below = bar.top + bar.height
     space = (max(ends) + letter) / bar.width
-    for value in ticks(layout, drawn, space):
+    for value in colouring.ticks(space, layout.scene.bar.ticks):
         x = bar.left + bar.width * (value - colouring.low) / (colouring.high - colouring.low)
         drawing.lines((x, below, x, below + _TICK * letter))
         drawing.text(x, below + (_TICK + 0.25 + _DIGIT / 2) * letter, colouring.label(value), anchor="mm")
@@ -72,7 +63,7 @@ def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     drawing.image(colouring.table[::-1, None], bar)
     x = bar.left + bar.width
     widest = 0.0
-    for value in ticks(layout, drawn, 2 * letter / bar.height):
+    for value in colouring.ticks(2 * letter / bar.height, layout.scene.bar.ticks):
         y = bar.top + bar.height * (1 - (value - colouring.low) / (colouring.high - colouring.low))
         drawing.lines((x, y, x + _TICK * letter, y))
         drawing.text(x + (_TICK + 0.25) * letter, y, colouring.label(value))

@@ -1,5 +1,7 @@
 """Colours of hexes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -181,8 +183,7 @@ def test_a_page_has_a_legend_with_the_materials(place):
 
 def test_the_window_lists_the_materials_in_place_of_the_gradient(shown):
     bar = ColourBar()
-    bar.set_table(NAMED.table)
-    bar.set_names(NAMED.names)
+    bar.show_colouring(NAMED)
     shown(bar, 120, 130)
     image = QImage(bar.size(), QImage.Format.Format_RGB32)
     bar.render(image)
@@ -190,15 +191,14 @@ def test_the_window_lists_the_materials_in_place_of_the_gradient(shown):
     assert {tuple(map(int, colour)) for colour in material_table(2)} <= seen
     assert bar.accessibleDescription() == "Materials: low, high"
     assert bar.sizeHint().height() < 200
-    bar.set_names(())
+    bar.show_colouring(replace(NAMED, names=()))
     assert bar.sizeHint().height() == 300
 
 
 def test_names_that_do_not_fit_are_counted(shown):
     bar = ColourBar()
     names = tuple(f"name {k}" for k in range(40))
-    bar.set_table(material_table(40))
-    bar.set_names(names)
+    bar.show_colouring(Colouring("Material", 0.0, 39.0, material_table(40), names=names))
     shown(bar, 120, 200)
     rows = bar.findChild(NameList).rows()
     assert rows[0] == "name 0"
