@@ -14,8 +14,7 @@ from hexmend_app.picture.colours import MATERIAL, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
 from hexmend_app.scene.colour.material_colours import material_names, material_table
-from hexmend_app.scene.page.lettering import Lettering
-from hexmend_app.scene.page.name_legend import MOST_BELOW, Entry, name_entries, rows_of
+from hexmend_app.scene.page.lettering import MOST_BELOW, Entry, Lettering, name_entries, rows_of
 from hexmend_app.scene.page.page_mesh import PageMesh
 
 #: Sizes in font heights: height of captions, gap between panels, height of the strip of a colour bar below, height of a

@@ -1,7 +1,8 @@
-"""Lettering of a page: font, which is shipped with matplotlib, its size, and widths of texts."""
+"""Lettering of a page: font, which is shipped with matplotlib, widths of texts, and rows of the entries of a legend."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -18,6 +19,14 @@ _MEASURED_SIZE = 200
 
 #: Additional width of a letter in pixels when it is rasterised, because positions are rounded to whole pixels.
 _ROUNDING = 0.4
+
+#: Most names of a legend below the panels, which may take several rows.
+MOST_BELOW = 24
+#: Sizes in font heights: swatch with its gap, and gap between entries.
+_SWATCH, _GAP = 1.3, 1.2
+
+#: Entry of a legend: a text and its colour, red, green and blue from 0 to 255; None for a text alone.
+Entry = tuple[str, tuple[int, int, int] | None]
 
 
 class Lettering:
@@ -54,3 +63,36 @@ def _font(bold: bool) -> ImageFont.FreeTypeFont:
 
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
     return ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts/ttf" / name), _MEASURED_SIZE)
+
+
+def name_entries(names: Sequence[str], table: Iterable[Iterable[int]], most: int) -> list[Entry]:
+    """Return the entries of the first names with their colours, and a last entry that counts the rest.
+
+    >>> name_entries(("a", "b", "c"), [(1, 1, 1), (2, 2, 2), (3, 3, 3)], 2)
+    [('a', (1, 1, 1)), ('and 2 more', None)]
+    """
+    entries: list[Entry] = [(name, (int(r), int(g), int(b))) for name, (r, g, b) in zip(names, table, strict=True)]
+    if len(entries) <= most:
+        return entries
+    first = entries[: max(most - 1, 0)]
+    return [*first, (f"and {len(entries) - len(first):,} more", None)]
+
+
+def entry_width(letters: Lettering, entry: Entry) -> float:
+    """Return the width of an entry with the gap after it, in pixels."""
+    text, colour = entry
+    return letters.width(text) + ((_SWATCH if colour is not None else 0) + _GAP) * letters.height
+
+
+def rows_of(letters: Lettering, entries: Iterable[Entry], width: float) -> list[list[Entry]]:
+    """Distribute entries over rows of a width in pixels."""
+    rows: list[list[Entry]] = [[]]
+    used = 0.0
+    for entry in entries:
+        needed = entry_width(letters, entry)
+        if rows[-1] and used + needed > width:
+            rows.append([])
+            used = 0.0
+        rows[-1].append(entry)
+        used += needed
+    return rows

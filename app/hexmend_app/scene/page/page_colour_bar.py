@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from hexmend_app.picture import TextPlace
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
-from hexmend_app.scene.page.name_legend import MOST_BELOW, entry_width, rows_of
+from hexmend_app.scene.page.lettering import MOST_BELOW, Entry, entry_width, rows_of
 from hexmend_app.scene.render.rasters import Rasters
 
 #: Sizes in font heights: gradient, tick, padding at the sides, gap between texts, swatch.
@@ -27,8 +29,8 @@ def draw_bar(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
 
 def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     letter, box, colouring = drawing.letters.height, layout.bar_place, drawn.colouring
-    swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
-    swatch_width = max(map(drawing.letters.width, swatches)) + (_SWATCH + 0.4) * letter
+    swatches = drawn.special_colours
+    swatch_width = max(drawing.letters.width(text) for text, _ in swatches) + (_SWATCH + 0.4) * letter
     left, right = box.left + _PAD * letter, box.left + box.width - _PAD * letter - swatch_width - 2 * _GAP * letter
     top = box.top + 0.5 * letter
     if layout.long_title:
@@ -51,12 +53,12 @@ def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     first = top + _THICK * letter / 2
     if len(swatches) > 1:
         first = box.top + (box.height - _ROW * letter * (len(swatches) - 1)) / 2
-    _swatches(drawing, drawn, side, first, swatches)
+    _draw_column(drawing, swatches, side, first)
 
 
 def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     letter, box, colouring = drawing.letters.height, layout.bar_place, drawn.colouring
-    swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
+    swatches = drawn.special_colours
     left = box.left + _PAD * letter
     low = box.top + box.height - (len(swatches) * _ROW + 1.2) * letter
     bar = Rectangle(round(left), round(box.top + letter), round(_THICK * letter), max(round(low - box.top - letter), 1))
@@ -71,13 +73,13 @@ def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     title_x = x + (_TICK + 0.25 + 0.9) * letter + widest
     share = min(1.0, bar.height / max(drawing.letters.width(layout.title), 1.0))
     drawing.text(title_x, bar.top + bar.height / 2, layout.title, anchor="mm", turned=True, share=share)
-    _swatches(drawing, drawn, left, low + 1.2 * letter, swatches)
+    _draw_column(drawing, swatches, left, low + 1.2 * letter)
 
 
 def _draw_names(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     """Draw the legend of materials and special colours: in rows below the panels, or in a column at the right."""
     letter, box = drawing.letters.height, layout.bar_place
-    special = [(_text(name, count), colour) for name, count, colour in drawn.special_colours]
+    special = drawn.special_colours
     if layout.bar is TextPlace.BELOW:
         rows = rows_of(drawing.letters, layout.legend(MOST_BELOW, special), layout.legend_width)
     else:
@@ -86,29 +88,23 @@ def _draw_names(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     for row, entries in enumerate(rows):
         x, middle = box.left + 0.5 * letter, box.top + (0.9 + _ROW * row) * letter
         for entry in entries:
-            text, colour = entry
-            if colour is None:
-                drawing.text(x, middle, text)
-            else:
-                _swatch(drawing, x, middle, colour, text)
+            _draw_entry(drawing, x, middle, entry)
             x += entry_width(drawing.letters, entry)
 
 
-def _swatches(drawing: Drawing, drawn: Rasters, left: float, first: float, texts: list[str]) -> None:
-    """Draw one row for each special colour; `first` is the middle of the first row."""
-    for row, ((_, _, colour), text) in enumerate(zip(drawn.special_colours, texts, strict=True)):
-        _swatch(drawing, left, first + row * _ROW * drawing.letters.height, colour, text)
+def _draw_column(drawing: Drawing, entries: Sequence[Entry], left: float, first: float) -> None:
+    """Draw entries one below the other; `first` is the middle of the first row."""
+    for row, entry in enumerate(entries):
+        _draw_entry(drawing, left, first + row * _ROW * drawing.letters.height, entry)
 
 
-def _swatch(drawing: Drawing, left: float, middle: float, colour: tuple[int, int, int], text: str) -> None:
-    """Draw a swatch with a text on its right, at a height in pixels."""
-    letter = drawing.letters.height
-    half = _SWATCH * letter / 2
-    right, top, bottom = left + 2 * half, middle - half, middle + half
-    rgb = tuple(part / 255 for part in colour)
-    drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], colours=rgb)
-    drawing.text(right + 0.4 * letter, middle, text)
-
-
-def _text(name: str, count: int | None) -> str:
-    return name if count is None else f"{name} ({count:,})"
+def _draw_entry(drawing: Drawing, left: float, middle: float, entry: Entry) -> None:
+    """Draw an entry at a height in pixels: a text, with a swatch on its left if it has a colour."""
+    (text, colour), letter = entry, drawing.letters.height
+    if colour is not None:
+        half = _SWATCH * letter / 2
+        right, top, bottom = left + 2 * half, middle - half, middle + half
+        corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
+        drawing.fill(corners, colours=tuple(part / 255 for part in colour))
+        left = right + 0.4 * letter
+    drawing.text(left, middle, text)

@@ -21,6 +21,7 @@ from hexmend_app.scene.colour.colouring import Colouring, declared_ends
 from hexmend_app.scene.cutting.filters import Filters
 from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.lettering import Entry
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.render.stage import Stage
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
@@ -43,8 +44,8 @@ class Rasters:
         Directions of the X, Y and Z axes in each panel, in camera coordinates: right, up, and towards the viewer.
     colouring : Colouring
         Colouring of all panels.
-    special_colours : list of (name, count or None, colour)
-        Special colours, with the number of hexes if a single mesh is shown.
+    special_colours : list of Entry
+        Special colours for the legend, with the number of hexes if a single mesh is shown.
     values : list of ((m,) float64, (m,) uint8)
         Coloured values of the hexes of each mesh that is shown, and the numbers of their special colours.
     """
@@ -52,7 +53,7 @@ class Rasters:
     images: list[Image.Image]
     axes: list[np.ndarray]
     colouring: Colouring
-    special_colours: list[tuple[str, int | None, tuple[int, int, int]]]
+    special_colours: list[Entry]
     values: list[tuple[np.ndarray, np.ndarray]]
 
 
@@ -169,7 +170,8 @@ class PageViews:
             axes.append(_axes(camera))
         colours = [self.all[number].colours for number in sorted(self.shown)]
         single = len(colours) == 1
-        special_colours = [(name, n if single else None, colour) for name, n, colour in colours[0].special_counts]
+        counts = colours[0].special_counts
+        special_colours: list[Entry] = [(f"{name} ({n:,})" if single else name, colour) for name, n, colour in counts]
         values = [(one.values, one.kinds) for one in colours]
         return Rasters(images, axes, self.all[1].colouring, special_colours, values)
 
