@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexmend_app.picture import Camera, Colours, Cut, DepthUnit, Plane, Slab
+from hexmend_app.picture import Camera, Colours, Cut, Plane, Slab
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.cut import CutStyle
@@ -56,34 +56,16 @@ def cut_open(cut: Cut) -> str:
     'cut across x at 25 % of its extent'
     >>> cut_open(Cut((Plane((0.0, 0.0, -1.0), point=(0.0, 0.0, 2.0)), Plane()), style=CutStyle.SMOOTH))
     'cut across -z through (0, 0, 2) and across x at 50 % of its extent, through the hexes'
-    >>> from hexmend_app.picture import Depth, Sphere
-    >>> cut_open(Cut(slab=Slab(thickness=0.2))), cut_open(Cut(sphere=Sphere((0, 0, 1), 2)))
-    ('cut by the slab across x at 50 % of its extent, 20 % thick', 'cut by the sphere around (0, 0, 1), radius 2')
-    >>> cut_open(Cut(depth=Depth(2, 3)))
-    'cut to depths from 2 to 3 layers'
-    >>> cut_open(Cut(sphere=Sphere((0, 0, 1), 2), notch=True))
-    'cut by the sphere around (0, 0, 1), radius 2, without its inside'
+    >>> from hexmend_app.picture import Sphere
+    >>> cut_open(Cut(slab=Slab(thickness=0.2))), cut_open(Cut(sphere=Sphere((0, 0, 1), 2), notch=True))
+    ('cut by a slab across x at 50 % of its extent', 'cut by a sphere, without its inside')
     """
-    if cut.box is not None:
-        low, high = (_vector(corner) for corner in (cut.box.low, cut.box.high))
-        unit = " relative to the extents" if cut.box.shares else ""
-        place = f"by the box from {low} to {high}{unit}"
-    elif cut.slab is not None:
-        size = f"{cut.slab.thickness:.4g}" if cut.slab.point else f"{100 * cut.slab.thickness:.3g} %"
-        place = f"by the slab {_plane(cut.slab)}, {size} thick"
-    elif cut.sphere is not None:
-        centre, radius = _vector(cut.sphere.centre), cut.sphere.radius
-        if cut.sphere.shares:
-            place = (
-                f"by the sphere around {centre} relative to the extents, radius {100 * radius:.3g} % of the diagonal"
-            )
-        else:
-            place = f"by the sphere around {centre}, radius {radius:.4g}"
-    elif cut.depth is not None:
-        unit = "layers" if cut.depth.unit is DepthUnit.LAYERS else "mean edge lengths"
-        place = f"to depths from {cut.depth.low:.4g} to {cut.depth.high:.4g} {unit}"
-    else:
+    if cut.slab is not None:
+        place = f"by a slab {_plane(cut.slab)}"
+    elif cut.planes:
         place = listed([_plane(one) for one in cut.planes])
+    else:
+        place = f"by a {cut.kind}" if cut.depth is None else "by the depth of hexes"
     inside = ", without its inside" if cut.notch and not cut.planes else ""
     return f"cut {place}{inside}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
 

@@ -9,29 +9,51 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from hexmend.errors import ParameterError
 from hexmend.io import read
 from hexmend.io.storage.atomic import check_writable
 from hexmend_app.cli.numbers import invalid_value, numbers, parse_size
 from hexmend_app.cli.scene_options import with_options
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, read_scene, write_scene
+from hexmend_app.picture.appearance import Arrows
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement, ReferenceState
 from hexmend_app.picture.named_cameras import cameras_of
-from hexmend_app.scene.page.page_renderer import format_of
-from hexmend_app.scene.page.still_picture import write_picture
+from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page, format_of
 
 
 def run(args: argparse.Namespace) -> int:
     """Draw the meshes and write the picture; invalid options are reported before the meshes are read."""
     scene = _scene(args)
     scene.panels_of(len(args.mesh))
-    format_of(Path(args.output))
-    check_writable(args.output)
+    output = Path(args.output)
+    format_of(output)
+    check_writable(output)
     if args.save_scene:
         write_scene(args.save_scene, scene)
     meshes = [read(path) for path in args.mesh]
-    page = write_picture(args.output, scene, meshes, [Path(path).stem for path in args.mesh], files=args.mesh)
+    page_meshes = [PageMesh.of(mesh, Path(path).stem) for mesh, path in zip(meshes, args.mesh, strict=True)]
+    page_meshes[0] = replace(page_meshes[0], movement=_movement(scene, page_meshes))
+    page = draw_page(scene, page_meshes)
+    pictured = [PicturedMesh.of(mesh, mesh, Path(path), output) for mesh, path in zip(meshes, args.mesh, strict=True)]
+    page.write(output, with_metadata(scene, pictured))
     print(f"{args.output}: {page.size[0]} × {page.size[1]} pixels")
     return 0
+
+
+def _movement(scene: Scene, meshes: Sequence[PageMesh]) -> Displacement | None:
+    """Return the movement of the first mesh, if the scene shows it."""
+    if scene.colours.metric not in DISPLACEMENT_QUANTITIES and scene.movement.arrows is Arrows.NONE:
+        return None
+    if len(meshes) == 1:
+        raise ParameterError(
+            "the scene shows the movement of a mesh: name the mesh before the movement first, then the mesh"
+        )
+    first = meshes[0]
+    reference = ReferenceState(first.mesh.points, first.figures, first.name)
+    return Displacement(first.mesh, reference, first.mesh.points, first.figures)
 
 
 def _scene(args: argparse.Namespace) -> Scene:

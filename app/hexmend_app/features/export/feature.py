@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.export.export_dialog import ExportDialog
 from hexmend_app.features.export.export_settings import ExportSettings
@@ -195,22 +194,13 @@ class FeatureExport(Feature):
 
     def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
         """Return the metadata of a picture: the scene, its meshes, and the recipe of the first mesh."""
+        from hexmend_app.features.export.report_files import run_recipe
+
         document = self.session.document
         opened = document.start.mesh
         shown = [document.now, *(one.state for one in self.session.side_views.all)]
         meshes = [PicturedMesh.of(opened, state.mesh, document.path, path) for state in shown]
-        return with_metadata(scene, meshes, self._recipe())
-
-    def _recipe(self) -> Recipe | None:
-        """Return the recipe of the last run on the mesh, or None if the mesh is as it was opened."""
-        session = self.session
-        work = session.run.work
-        if work is None or session.document.now is session.document.start:
-            return None
-        stage = session.run_setup.active_stage
-        if isinstance(work, Recipe):
-            return work
-        return Recipe.of(stage if stage is not None else work, rules=session.run.record.rules)
+        return with_metadata(scene, meshes, run_recipe(self.session))
 
     # Films, reports and figure sets
 

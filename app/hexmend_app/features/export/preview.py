@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from hexmend.errors import HexmendError
 from hexmend_app.picture import Scene
 from hexmend_app.picture.page import PT_PER_INCH
-from hexmend_app.theme.palette import FIELD, LINE
+from hexmend_app.theme.palette import LINE
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
 #: Milliseconds between the last change and drawing.
 _PAUSE = 150
-
-#: Side in pixels of the squares that show a transparent background.
-_SQUARE = 8
 
 
 class Preview(QWidget):
@@ -64,17 +61,10 @@ class Preview(QWidget):
             self._soon.start()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the picture centred, with squares below a transparent background."""
+        """Paint the picture centred."""
         painter = QPainter(self)
         size = self._picture.size() / self.devicePixelRatioF()
         left, top = (self.width() - size.width()) // 2, (self.height() - size.height()) // 2
-        if self._scene is not None and self._scene.page.ground is None:
-            painter.setClipRect(left, top, size.width(), size.height())
-            painter.fillRect(self.rect(), FIELD.light)
-            for row in range(0, size.height(), _SQUARE):
-                for column in range(row % (2 * _SQUARE), size.width(), 2 * _SQUARE):
-                    painter.fillRect(left + column, top + row, _SQUARE, _SQUARE, LINE.light)
-            painter.setClipping(False)
         if not self._picture.isNull():
             painter.drawPixmap(left, top, self._picture)
             painter.setPen(str(LINE))

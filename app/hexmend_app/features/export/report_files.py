@@ -133,7 +133,7 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
     A mesh is left out if the stages that led to it are unknown.
     """
     document, comparison = session.document, session.comparison
-    run = _run_recipe(session)
+    run = run_recipe(session)
     recipes = {} if run is None else {"run.toml": run}
     initial = comparison.initial
     if initial is None or not comparison.results:
@@ -153,7 +153,7 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
     return recipes
 
 
-def _run_recipe(session: Session) -> Recipe | None:
+def run_recipe(session: Session) -> Recipe | None:
     """Return the recipe of the last run if it led from the opened mesh to the current mesh, else None."""
     work, document = session.run.work, session.document
     moment = session.history.iteration_of(document.now)
