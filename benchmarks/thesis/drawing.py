@@ -19,9 +19,9 @@ from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.scene.page.rasters import aim
 from hexmend_app.scene.render.colour_count import count_colours
 from hexmend_app.scene.render.graphics import prepare_off_screen
-from hexmend_app.scene.render.rasters import aim
 
 #: Colours and lines of figures that show the shape of the mesh alone.
 _NEUTRAL, _NO_EDGES = Colours(neutral=True), LineStyle(edges=0.0)

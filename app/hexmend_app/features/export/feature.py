@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.export.export_dialog import ExportDialog
 from hexmend_app.features.export.export_settings import ExportSettings
 from hexmend_app.features.export.film_settings import FilmOptions, FilmSettings
+from hexmend_app.features.export.page_dialog import PageDialog
 from hexmend_app.features.export.picture_settings import PictureSettings
 from hexmend_app.features.export.report_settings import ReportSettings
 from hexmend_app.picture import Page, Scene
@@ -118,14 +118,14 @@ class FeatureExport(Feature):
             self.write(dialog.settings, dialog.target.path())
         dialog.deleteLater()
 
-    def dialog(self, chosen: str) -> ExportDialog:
+    def dialog(self, chosen: str) -> PageDialog:
         """Return the dialog for an export with an id: picture, film, report or figures."""
         exports: list[ExportSettings] = [self._picture_settings()]
         if self.session.timeline.record is not None:
             exports.append(self._film_settings())
         if not self.session.run.busy:
             exports += self._report_settings()
-        return ExportDialog(exports, chosen, self.host.dialog_parent)
+        return PageDialog(exports, chosen, self.host.dialog_parent)
 
     def write(self, settings: ExportSettings, path: Path) -> None:
         """Write an export with the settings of the dialog."""

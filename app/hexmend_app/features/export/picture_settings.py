@@ -58,7 +58,7 @@ class PictureSettings(ExportSettings):
     def __init__(self, scene: Scene, draw: Callable[[Scene], Image.Image], name: str, views: Sequence[str] = ()):
         super().__init__("picture", tr("Picture"), name, tr(_KINDS))
         self._view_scene = self._base = scene
-        self.draw = draw
+        self._draw = draw
         self.size_form = SizeForm(scene.page)
         self.camera = ComboBox()
         set_help(
@@ -125,6 +125,10 @@ class PictureSettings(ExportSettings):
         camera = self.camera.currentData()
         return replace(self._base, panels=panels, camera=camera or self._view_scene.camera, **tables)
 
+    def draw(self, scene: Scene) -> Image.Image:
+        """Draw the page of a scene."""
+        return self._draw(scene)
+
     def show_scene(self, scene: Scene) -> None:
         """Show the settings and cameras of another scene; the panels of the view are preserved."""
         cameras = merged(self._view_scene.cameras, scene.cameras)
@@ -142,16 +146,18 @@ class PictureSettings(ExportSettings):
         format_of(path)
 
     def load(self, path: str) -> None:
-        """Load a scene from a file, or show the problem; "" does nothing."""
-        self._try(lambda: path and self.show_scene(read_scene(path)))
+        """Load a scene from a file, or report the problem; "" does nothing."""
+        try:
+            if path:
+                self.show_scene(read_scene(path))
+        except FileError as error:
+            self.failed.emit(str(error))
 
     def save_scene(self, path: str) -> None:
-        """Write the scene to a file, or show the problem; "" does nothing."""
-        self._try(lambda: path and write_scene(path, self.scene()))
-
-    def _try(self, act: Callable[[], object]) -> None:
+        """Write the scene to a file, or report the problem; "" does nothing."""
         try:
-            act()
+            if path:
+                write_scene(path, self.scene())
         except (FileError, ParameterError) as error:
             self.failed.emit(str(error))
 

@@ -15,7 +15,7 @@ from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer
-from hexmend_app.scene.render.rasters import PageViews, page_views
+from hexmend_app.scene.page.rasters import PageViews, page_views
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RunRecord
 

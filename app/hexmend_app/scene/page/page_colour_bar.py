@@ -8,7 +8,7 @@ from hexmend_app.picture import TextPlace
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.page.lettering import MOST_BELOW, Entry, entry_width, rows_of
-from hexmend_app.scene.render.rasters import Rasters
+from hexmend_app.scene.page.rasters import Rasters
 
 #: Sizes in font heights: gradient, tick, padding at the sides, gap between texts, swatch.
 _THICK, _TICK, _PAD, _GAP, _SWATCH = 1.0, 0.25, 0.8, 0.6, 0.9

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.page.drawing import SOFT, Drawing
 from hexmend_app.scene.page.layout import Layout
-from hexmend_app.scene.render.rasters import Rasters
+from hexmend_app.scene.page.rasters import Rasters
 
 #: Number of bins, and width of a bar relative to that of its bin.
 _BINS, _WIDE = 40, 0.9

@@ -20,7 +20,7 @@ from hexmend_app.scene.page.page_captions import draw_captions
 from hexmend_app.scene.page.page_colour_bar import draw_bar
 from hexmend_app.scene.page.page_histogram import draw_histogram
 from hexmend_app.scene.page.page_mesh import PageMesh
-from hexmend_app.scene.render.rasters import Rasters, rasters
+from hexmend_app.scene.page.rasters import Rasters, rasters
 from hexmend_app.state.node_step import NodeStep
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from PySide6.QtTest import QTest
 from benchmarks.window.windows import end_run
 from hexmend import METHODS, StoppingCriteria
 from hexmend_app.cli import figure_set
-from hexmend_app.features.export.export_dialog import ExportDialog
+from hexmend_app.features.export.page_dialog import PageDialog
 from hexmend_app.features.export.report_files import versions_of
 from hexmend_app.picture import read_scene
 from tests.app.driving import LEFT, button, turn
@@ -34,7 +34,7 @@ def export(window, qtbot, tmp_path, monkeypatch):
             dialog.accept()
             return dialog.result()
 
-        monkeypatch.setattr(ExportDialog, "exec", accept)
+        monkeypatch.setattr(PageDialog, "exec", accept)
         window.window_actions[action].trigger()
         if wait:
             qtbot.waitUntil(lambda: not window.features["export"].going_on)

@@ -10,8 +10,8 @@ from hexmend_app.picture import Camera, Cut, CutStyle, Page, PicturePanel, Plane
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.rasters import rasters
 from hexmend_app.scene.render.colour_count import count_colours
-from hexmend_app.scene.render.rasters import rasters
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
 from tests.core.grids import grid, scrambled
 

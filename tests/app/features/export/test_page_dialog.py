@@ -6,7 +6,7 @@ from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
-from hexmend_app.features.export.export_dialog import ExportDialog
+from hexmend_app.features.export.page_dialog import PageDialog
 from hexmend_app.features.export.picture_settings import PictureSettings
 from hexmend_app.picture import Camera, Page, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -23,7 +23,7 @@ def own_settings(tmp_path):
 
 def made(qtbot, scene=None, draw=lambda scene: Image.new("RGB", scene.page.size), views=()):
     scene = Scene(page=Page(pixels=(640, 480))) if scene is None else scene
-    dialog = ExportDialog([PictureSettings(scene, draw, "bridge.png", views)], "picture")
+    dialog = PageDialog([PictureSettings(scene, draw, "bridge.png", views)], "picture")
     qtbot.addWidget(dialog)
     dialog.show()
     return dialog

@@ -22,7 +22,7 @@ from hexmend_app.widgets.inputs.combo import ComboBox
 _SHARE = 0.7
 
 
-class ExportDialog(SaveDialog):
+class PageDialog(SaveDialog):
     """Dialog to choose what is exported, its settings, and its path.
 
     Parameters
