@@ -36,5 +36,5 @@ ENVIRONMENT.filters["data_uri"] = data_uri
 ENVIRONMENT.tests["worsened"] = lambda text: isinstance(text, WorsenedText)
 ENVIRONMENT.policies["json.dumps_kwargs"] = {"allow_nan": False}
 
-#: Elements of a report, macros of the template `elements.html`, which return escaped HTML.
-html: Any = ENVIRONMENT.get_template("elements.html").module
+#: Elements of a report, macros of the template `parts.html`, which return escaped HTML.
+html: Any = ENVIRONMENT.get_template("parts.html").module

@@ -7,32 +7,29 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QImage, QPixmap, QResizeEvent
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QImage
 from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLabel,
     QLineEdit,
-    QSizePolicy,
     QTextBrowser,
     QVBoxLayout,
     QWidget,
 )
 
-from hexmend.errors import HexmendError, ParameterError
+from hexmend.errors import ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
 from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, ExportedChart, chart_png
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.dialogs.preview import Preview
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
 from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
-
-#: Milliseconds from the last change to the update of the preview.
-_PREVIEW_DELAY = 150
 
 #: Maximum length of a title or a name.
 _MAX_LENGTH = 200
@@ -73,8 +70,6 @@ class ExportDialog(SaveDialog):
         for default, line in self.names.items():
             line.setMaxLength(_MAX_LENGTH)
             set_help(line, tr("Name of {default}", default=default), tr("Name in the exported file."))
-        self._preview_timer = QTimer(self, interval=_PREVIEW_DELAY, singleShot=True)
-        self._preview_timer.timeout.connect(self.show_preview)
 
     def lay_out(self, preview: QWidget, *forms: QWidget) -> None:
         """Lay out a preview next to forms, title and names."""
@@ -98,7 +93,7 @@ class ExportDialog(SaveDialog):
             line.textEdited.connect(self.changed)
         self.target.edited.connect(self.changed)
         self.resize(960, 560)
-        self._preview_timer.start()
+        self.show_preview()
 
     def chosen(self) -> ChartStyle:
         """Return the edited style.
@@ -117,9 +112,9 @@ class ExportDialog(SaveDialog):
         raise NotImplementedError
 
     def changed(self, *_: Any) -> None:
-        """Update the preview after a delay."""
+        """Update the preview."""
         self.refuse("")
-        self._preview_timer.start()
+        self.show_preview()
 
     def check(self) -> None:
         """Raise `FileError` or `ParameterError` if the settings cannot be written to the path."""
@@ -155,10 +150,8 @@ class ChartDialog(ExportDialog):
     ):
         super().__init__(subject, name, kinds, style, chart.title, chart.names, parent)
         self._chart = chart
-        self.preview = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
-        self.preview.setMinimumSize(360, 260)
-        self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
-        set_help(self.preview, tr("Preview"), tr("Preview of the exported figure."))
+        self.preview = Preview(tr("Preview of the exported figure."))
+        self.preview.drawn.connect(self.refuse)
         self.form = ParameterForm(declared(ChartStyle))
         self.form.set_values(self._style.values())
         self.form.changed.connect(self.changed)
@@ -170,33 +163,19 @@ class ChartDialog(ExportDialog):
             raise ParameterError(problem)
         return replace(super().chosen(), **self.form.values())
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Update the preview after a delay."""
-        super().resizeEvent(event)
-        self._preview_timer.start()
-
     def show_preview(self) -> None:
         """Draw the figure as large as possible."""
         is_figure = self.target.path().suffix.lower() in FIGURE_SUFFIXES
         self.form.setEnabled(is_figure)
-        if not is_figure:
+        if is_figure:
+            self.preview.draw_soon(self._draw)
+        else:
+            self.preview.stop()
             self.preview.setText(tr("Table of values; no preview."))
-            return
-        ratio = self.devicePixelRatioF()
-        size = self.preview.contentsRect().size() * ratio
-        try:
-            style = self.chosen()
-            data = chart_png(self._chart.draw, style, max(10.0, size.width() / style.width * MM_PER_INCH))
-        except HexmendError as error:
-            self.refuse(str(error))
-            return
-        image = QImage.fromData(data)
-        if image.height() > size.height() or image.width() > size.width():
-            aspect = Qt.AspectRatioMode.KeepAspectRatio
-            image = image.scaled(size, aspect, Qt.TransformationMode.SmoothTransformation)
-        picture = QPixmap.fromImage(image)
-        picture.setDevicePixelRatio(ratio)
-        self.preview.setPixmap(picture)
+
+    def _draw(self, size: QSize) -> QImage:
+        style = self.chosen()
+        return QImage.fromData(chart_png(self._chart.draw, style, max(10.0, size.width() / style.width * MM_PER_INCH)))
 
 
 class TableDialog(ExportDialog):
