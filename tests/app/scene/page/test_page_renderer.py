@@ -1,6 +1,7 @@
 """Pages: sizes, formats, backgrounds and texts."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,12 @@ from hexmend_app.picture import Camera, Colours, Cut, PicturePanel, Plane, Range
 from hexmend_app.picture.colour_map import COLOUR_MAPS
 from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Page, TextPlace
 from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.film.film_frames import FilmFrame, pictures
+from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
-from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page
+from hexmend_app.scene.page.rasters import rasters
+from hexmend_app.state.mesh.document import State
 from tests.core.grids import grid, scrambled
 
 BARE = {"bar": ColourBarStyle(TextPlace.NONE), "axes": AxesStyle(show=False)}
@@ -150,3 +155,20 @@ def test_a_name_is_drawn_verbatim_and_stays_within_its_panel():
         for name in ("", "a" * 300, "$x^2$ \\alpha {", "‮×")
     )
     assert all(np.array_equal(plain[:, :245], other[:, :245]) for other in others)
+
+
+@pytest.mark.parametrize("before", [False, True])
+def test_a_later_frame_of_a_film_equals_the_page_of_its_mesh(before):
+    camera = Camera(position=(9.0, -9.0, 7.0), focal=(1.5, 1.5, 1.5), view_up=(0.0, 0.0, 1.0), scale=3.0)
+    scene = Scene(camera=camera, page=Page(pixels=(480, 300), supersampling=1))
+    first = scrambled(grid(3), 0.7)
+    last = first.with_points(scrambled(grid(3), 0.2).points)
+    frames = [FilmFrame("run", f"frame {k}", State.of(mesh)) for k, mesh in enumerate((first, last))]
+    _, drawn = pictures(frames, scene, histogram=True, before=before)
+    named = [(first, "Before"), (last, "frame 1")] if before else [(last, "run, frame 1")]
+    panels = tuple(PicturePanel(mesh=number, caption=name) for number, (_, name) in enumerate(named, 1))
+    meshes = [PageMesh.of(mesh, name) for mesh, name in named]
+    layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=True)
+    afresh = np.asarray(PageRenderer(layout, rasters(layout)).image()).astype(int)
+    assert np.ptp(afresh) > 200
+    assert np.abs(np.asarray(drawn) - afresh).max() <= 2
