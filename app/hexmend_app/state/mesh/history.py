@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
-from hexmend_app.state.mesh.document import OWN_PARTS, State
+from hexmend_app.state.mesh.document import OWN_PARTS, Command, State
 from hexmend_app.state.mesh.history_data import HistoryData, to_data
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.settings.settings import HISTORY_MEGABYTES
@@ -148,6 +148,7 @@ class History:
             record.plotted, record.settings = saved.plotted, printable(saved.settings)
             record.rows, record.result, record.end = [dict(row) for row in saved.rows], saved.result, saved.end
             record.message, record.pauses, record.advice = saved.message, dict(saved.pauses), saved.advice
+            record.recipe = saved.recipe
             self.records.append(record)
             self._moments[saved.start] = RecordedIteration(record, 0)
             if saved.end is not None:
@@ -178,6 +179,26 @@ class History:
                 return None
             self._moments[state] = moment  # the other state may be deleted before this one
         return self._moments[state]
+
+    def command_of(self, state: State, recorded: State) -> Command | None:
+        """Return the call that makes an iteration of a run again; None for other states.
+
+        Parameters
+        ----------
+        state : State
+            State shown.
+        recorded : State
+            State of the current change, which has the same `OWN_PARTS`.
+        """
+        moment = self.iteration_of(state)
+        if moment is None:
+            return None
+        start = moment.record.start
+        if not moment.number:
+            return None if state is start else Command("move", (recorded, start))
+        recipe = moment.record.recipe_until(moment.number)
+        like = start if _same_own_parts(state.mesh, start.mesh) else recorded
+        return None if recipe is None else Command("smooth", (start, like), recipe=recipe)
 
     def recorded_numbers(self, record: RunRecord) -> np.ndarray:
         """Return the numbers of the iterations whose positions are recorded, ascending, (k,) int."""

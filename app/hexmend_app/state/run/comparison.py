@@ -9,12 +9,15 @@ from typing import Any
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
+from hexmend.iteration import Outcome
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
+from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.run import Run, StoppingCriteria
-from hexmend.smoothers import Smoother
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS, Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
 from hexmend_app.state.mesh.document import Document, State
@@ -209,6 +212,17 @@ class Comparison(QObject):
     def of(self, method: str) -> MethodResult | None:
         """Return the result of a method; None if there is none yet."""
         return next((result for result in self.results if result.row.method == method), None)
+
+    def recipe_of(self, state: State) -> Recipe | None:
+        """Return what repeats the result that is a state; None for other states, and if the method is unknown."""
+        row = next((result.row for result in self.results if result.state is state), None)
+        if row is None or row.method not in METHODS:
+            return None
+        stop = self._stop
+        if row.outcome in (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key):
+            stop = replace(stop, max_iterations=row.iterations, max_seconds=0.0)
+        smoother = from_values(METHODS[row.method], row.parameters, owner=row.method)
+        return Recipe.of(Stage(smoother, stop), rules=self._rules)
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""

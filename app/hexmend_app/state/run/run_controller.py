@@ -16,7 +16,7 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Command, Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_settings import Pace, rules_text, settings_text
@@ -149,7 +149,11 @@ class RunController(QObject):
         rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
         record = partial(self.history.add, self.record)
         self._worker = Worker(before.mesh, smoother, stop, record, rules)
-        self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
+        self.record.work, self.record.stop = smoother, stop
+        is_recipe = isinstance(smoother, Recipe)
+        self.record.recipe = (
+            smoother if is_recipe else Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
+        )
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
@@ -206,6 +210,7 @@ class RunController(QObject):
         """Continue the current stage with another method, other values or other limits."""
         if self._worker is not None:
             self._worker.change(stage)
+            self.record.recipe = None
             change = f"{stage.smoother.name} {settings_text(stage.smoother, stage.stop)}".strip()
             self.record.settings = "; ".join(filter(None, (self.record.settings, change)))
             if isinstance(self.work, Recipe):
@@ -274,6 +279,7 @@ class RunController(QObject):
         worker.task.wait()
         self._worker = None
         error, last = worker.task.error, worker.last
+        self.record.recipe = worker.recipe
         self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
@@ -285,6 +291,8 @@ class RunController(QObject):
         else:
             self.view.finish(self._title, last)
             self._result = self._document.recorded
+            if last is not None and worker.recipe is not None:
+                self._document.journal[last.state] = Command("smooth", (self.record.start,) * 2, recipe=worker.recipe)
             if last is not None:
                 self.iterated.emit(last)
             self.advice = self.record.advice = worker.advice

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import monotonic
 
 from hexmend.advice import Advice, advise
-from hexmend.iteration import Iteration, Result
+from hexmend.iteration import Iteration, Outcome, Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
@@ -86,8 +86,8 @@ class Worker:
     mailbox : Mailbox
     last : IterationFrame or None
         The newest frame.
-    changes : list of (int, Stage)
-        Iterations after which the method was switched, and the new stages.
+    recipe : Recipe or None
+        What repeats the run; None until it has ended.
     prepared : threading.Event
         Set when the method has been set up, or its set-up has failed.
     advice : Advice or None
@@ -110,7 +110,7 @@ class Worker:
         self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
         self.last: IterationFrame | None = None
-        self.changes: list[tuple[int, Stage]] = []
+        self.recipe: Recipe | None = None
         self.prepared = threading.Event()
         self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()
@@ -173,6 +173,7 @@ class Worker:
                 self._report(run.best)
             result = run.result()
             self.advice = advise(result)
+            self.recipe = _repeating(run, result, self._rules)
             return result
         finally:
             self.prepared.set()
@@ -203,6 +204,21 @@ class Worker:
             change, self._change = self._change, None
             ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
-            self.changes.append((run.last.number, change))
             run.switch_method(change.smoother, change.stop)  # may take long: outside the lock, so that nobody waits
         return run.outcome is None and not ended
+
+
+def _repeating(run: Run, result: Result, rules: MotionRules | None) -> Recipe:
+    """Return the recipe that repeats a run; one that was cut short or changed ends at the iteration that was kept."""
+    work = run.smoother if isinstance(run.smoother, Recipe) else Recipe.of(run.recipe.stages[0], rules=rules)
+    if result.outcome not in (Outcome.STOPPED, Outcome.MAX_SECONDS) and len(result.stages) <= len(work.stages):
+        return work
+    left, stages = result.kept, list[Stage]()
+    begun = [one for one in result.stages if one.iterations]
+    for stage, done in zip(run.recipe.stages, begun, strict=False):
+        if left <= done.iterations:
+            stop = replace(stage.stop, max_iterations=left, max_seconds=0.0, keep_last=True)
+            return Recipe.of(*stages, replace(stage, stop=stop), rules=work.rules)
+        stages.append(stage)
+        left -= done.iterations
+    return work

@@ -20,7 +20,7 @@ from hexmend.quality import summarise
 from hexmend.run.memory import available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Edit, State
+from hexmend_app.state.mesh.document import Command, State
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session_parts import SessionParts
@@ -100,8 +100,8 @@ class Commands(QObject):
         self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
 
     def _start_recipe(self, recipe: Recipe) -> None:
-        self._session.end_previews()
-        self.smoothing.start(recipe, None)
+        if self._begin_edit():
+            self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as shown, at any iteration; an active run ends first."""
@@ -118,8 +118,11 @@ class Commands(QObject):
     def adopt_positions(self, title: str, state: State) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._begin_edit():
-            mesh = self.document.now.mesh.with_points(state.mesh.points)
-            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
+            now, comparison = self.document.now, self._session.comparison
+            mesh = now.mesh.with_points(state.mesh.points)
+            recipe = comparison.recipe_of(state)
+            command = None if recipe is None else Command("smooth", (comparison.initial, now), recipe=recipe)
+            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)), command=command)
 
     def replace_mesh(self, title: str, state: State) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
@@ -156,7 +159,8 @@ class Commands(QObject):
         if self._begin_edit():
             now = self.document.now
             state = replace(now, mesh=now.mesh.sliding_on(surface, check=False))
-            self.document.commit("set target surface", state, edit=Edit(now, sliding_on_file, (str(path.absolute()),)))
+            command = Command(sliding_on_file.__name__, (now,), (str(path.absolute()),))
+            self.document.commit("set target surface", state, command=command)
 
     def slide_on_boundary(self) -> None:
         """Let the boundary slide on itself, if the mesh is editable."""
@@ -176,7 +180,8 @@ class Commands(QObject):
             now = self.document.now
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
-            self.document.commit(title, State(mesh, now.figures, summary), edit=Edit(now, change, values))
+            command = Command(change.__name__, (now,), values)
+            self.document.commit(title, State(mesh, now.figures, summary), command=command)
 
     def repair(self, kinds: Sequence[str] = ()) -> bool:
         """Start repairing some kinds of problem, or all; return False if the mesh is not editable.
@@ -203,8 +208,13 @@ class Commands(QObject):
             self.document.redo()
 
     def _begin_edit(self) -> bool:
-        """End previews and return True if the mesh can be edited."""
-        if self._session.editable:
-            self._session.end_previews()
-            return True
-        return False
+        """End previews and return True if the mesh can be edited; note how a shown iteration of a run is made."""
+        if not self._session.editable:
+            return False
+        self._session.end_previews()
+        document, history = self.document, self._session.history
+        if document.now not in document.journal:
+            command = history.command_of(document.now, document.recorded)
+            if command is not None:
+                document.journal[document.now] = command
+        return True

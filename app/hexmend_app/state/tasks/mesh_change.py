@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.doctor import PROBLEMS, repair
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding import pad
-from hexmend_app.state.mesh.document import Edit, State
+from hexmend_app.state.mesh.document import Command, State
 from hexmend_app.state.tasks.task import Task, drop
 
 if TYPE_CHECKING:
@@ -30,14 +30,14 @@ class MeshChange:
         Title in the undo list.
     state : State or None
         The changed mesh; None if nothing was changed.
-    edit : Edit
+    command : Command
         Call of the core that makes the same change.
     """
 
     outcome: Any
     title: str
     state: State | None
-    edit: Edit
+    command: Command
 
 
 class BackgroundChange(QObject):
@@ -112,7 +112,7 @@ class BackgroundChange(QObject):
             self.cancelled.emit()
             return
         if change.state is not None:
-            document.commit(change.title, change.state, edit=change.edit)
+            document.commit(change.title, change.state, command=change.command)
         self.ended.emit(change.outcome)
 
 
@@ -154,7 +154,7 @@ class MeshPadder(BackgroundChange):
 def _pad(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
     """Pad, mend, measure and prepare a mesh; mending ends when the task is cancelled."""
     padding = pad(before.mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
-    return MeshChange(padding, "pad", prepared_state(padding.mesh), Edit(before, pad, tuple(choice)))
+    return MeshChange(padding, "pad", prepared_state(padding.mesh), Command("pad", (before,), tuple(choice)))
 
 
 class MeshRepairer(BackgroundChange):
@@ -170,4 +170,6 @@ def _repair(before: State, kinds: tuple[str, ...]) -> MeshChange:
     """Repair, measure and prepare a mesh."""
     mesh, repaired = repair(before.mesh, kinds)
     title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)
-    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, Edit(before, repair, (kinds,)))
+    return MeshChange(
+        repaired, title, prepared_state(mesh) if repaired else None, Command("repair", (before,), (kinds,))
+    )

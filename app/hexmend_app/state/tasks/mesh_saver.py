@@ -149,7 +149,8 @@ class MeshSaver(QObject):
             return SaveTask(path, document.now, document.recorded, session.to_data())
         moment = session.timeline.shown_iteration
         if document.previews and session.editable:
-            document.commit("go back" if moment is None else f"go to {moment.name}", document.now)
+            command = session.history.command_of(document.now, document.recorded)
+            document.commit("go back" if moment is None else f"go to {moment.name}", document.now, command=command)
         return SaveTask(path, document.now, document.now, None, rewrite)
 
     def _begin(self) -> None:
