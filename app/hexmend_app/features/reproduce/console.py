@@ -106,7 +106,7 @@ class ConsolePanel(QWidget):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Recall commands with the arrow keys."""
-        steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+        steps: dict[int, int] = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
         if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress and event.key() in steps:
             self._at = min(max(0, self._at + steps[event.key()]), len(self._history))
             self.line.setText("".join(self._history[self._at : self._at + 1]))

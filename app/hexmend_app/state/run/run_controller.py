@@ -150,10 +150,10 @@ class RunController(QObject):
         record = partial(self.history.add, self.record)
         self._worker = Worker(before.mesh, smoother, stop, record, rules)
         self.record.work, self.record.stop = smoother, stop
-        is_recipe = isinstance(smoother, Recipe)
-        self.record.recipe = (
-            smoother if is_recipe else Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
-        )
+        if isinstance(smoother, Recipe):
+            self.record.recipe = smoother
+        else:
+            self.record.recipe = Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
