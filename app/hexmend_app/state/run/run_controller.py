@@ -224,7 +224,7 @@ class RunController(QObject):
             self._worker.end()
             self._set_phase(Phase.STOPPING)
 
-    def end(self, then: Callable[[], object]) -> None:
+    def finish_then(self, then: Callable[[], object]) -> None:
         """End the run after the current iteration, record its result, then call a function.
 
         The function is called at once if no run is active; several functions are called in the order of the calls.

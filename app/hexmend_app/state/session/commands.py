@@ -53,7 +53,7 @@ class Commands(QObject):
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; an active run ends first. If the file cannot be read, the open mesh stays."""
-        self.smoothing.end(lambda: self._session.opener.open(path))
+        self.smoothing.finish_then(lambda: self._session.opener.open(path))
 
     def save_in_background(self, path: str | Path, rewrite: bool = False) -> SaveTask:
         """Save the mesh in a thread, or the session if the path has the suffix of sessions.
@@ -105,11 +105,11 @@ class Commands(QObject):
 
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as shown, at any iteration; an active run ends first."""
-        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.end(lambda: self._start(stage)))
+        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.finish_then(lambda: self._start(stage)))
 
     def reset(self) -> None:
         """End the run and move the nodes back to where they were when the mesh was opened."""
-        self.smoothing.end(self._reset)
+        self.smoothing.finish_then(self._reset)
 
     def _reset(self) -> None:
         if self._begin_edit():

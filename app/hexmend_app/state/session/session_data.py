@@ -15,7 +15,7 @@ from hexmend.quality import measure, summarise
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec.conversion import Hooks, decode, encode
 from hexmend_app.formats.session import SUFFIX, is_session
-from hexmend_app.formats.session.session_file import SessionFolder, read_session, write_session
+from hexmend_app.formats.session.session_file import read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
@@ -104,17 +104,6 @@ def write(path: Path, data: SessionData) -> None:
     """
     with atomic_write(path) as temporary:
         write_session(temporary, *_encoded(data))
-
-
-def write_new(folder: SessionFolder, data: SessionData) -> None:
-    """Write the data of a session that its folder does not contain yet.
-
-    Raises
-    ------
-    FileError
-        If the folder cannot be written to.
-    """
-    folder.write(*_encoded(data))
 
 
 def _encoded(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:

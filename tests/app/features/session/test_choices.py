@@ -101,4 +101,4 @@ def test_an_invalid_part_of_a_feature_is_left_out(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     for place, field, value, said in INVALID:
         open_and_wait(qtbot, window, written(path, ("features", place), field, value))
-        assert any(said in message[2] for message in window.messages.messages()), said
+        qtbot.waitUntil(lambda said=said: any(said in message[2] for message in window.messages.messages()))
