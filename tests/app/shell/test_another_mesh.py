@@ -43,7 +43,7 @@ def everything(window, qtbot):
     session.timeline.go(session.history.records[-1], 1)
     structure = Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original")
     session.view.change(movement=Traces(arrows=Arrows.ALL), structure=structure, colours={"metric": "q-change"})
-    session.run.break_at(Breakpoints(hex=last_hex, node=last_node))
+    session.run.set_breakpoints(Breakpoints(hex=last_hex, node=last_node))
     for letter in (Qt.Key.Key_V, Qt.Key.Key_W):  # beside, and the wipe
         key(window, letter)
     assert len(window.canvas.panes.all) == 2

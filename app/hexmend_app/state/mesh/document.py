@@ -283,6 +283,11 @@ class Document(QObject):
         return tuple(Original(path, mesh) for path, mesh in reversed(self._files.items()))
 
     @property
+    def states(self) -> list[State]:
+        """The states of all changes, in their order."""
+        return [change.state for change in self._changes]
+
+    @property
     def recorded(self) -> State:
         """The state of the current change; a mesh is open."""
         return self._changes[self._at].state

@@ -126,16 +126,18 @@ class History:
         for record in list(self.records):
             self.remove(record)
 
-    def to_data(self, states: Iterable[State]) -> HistoryData:
-        """Return the data for a session file, with the iterations that some states show."""
+    def note_iterations(self, states: Iterable[State]) -> None:
+        """Find the iterations that states show, for session files."""
+        for state in states:
+            self.iteration_of(state)
+
+    def to_data(self) -> HistoryData:
+        """Return the data for a session file."""
         with self._lock:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
             records = tuple(to_data(record, at, record._offsets) for record in started)
-        moments = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
-        shown = [
-            (state, at[moment.record], moment.number) for state, moment in moments if moment and moment.record in at
-        ]
+        shown = [(state, at[one.record], one.number) for state, one in self._moments.items() if one.record in at]
         return HistoryData(records, tuple(shown))
 
     def restore(self, data: HistoryData) -> None:

@@ -67,6 +67,8 @@ class RunRecord:
         State of the result.
     outcome : Outcome or None
         Why the run ended; None until it has ended, if it failed, and for a run from a session file.
+    better : int or None
+        Number of an iteration that the method ranks higher than the result of a run that the user has stopped.
     message : str
         Outcome in sentences; "" until the run has ended.
     pauses : dict
@@ -96,6 +98,7 @@ class RunRecord:
         self.result: int | None = None
         self.end: State | None = None
         self.outcome: Outcome | None = None
+        self.better: int | None = None
         self.message = ""
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None

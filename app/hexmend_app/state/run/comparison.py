@@ -88,7 +88,7 @@ class _ComparisonTask:
     """Runs methods one after another on one mesh in a thread; their results are in `done`."""
 
     def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules):
-        self.task = Task("smoother comparison", self._run, yields=True)
+        self.task = Task("smoother comparison", self._run)
         self.done: list[MethodResult] = []
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
         self._inputs = (state, smoothers, stop, rules)

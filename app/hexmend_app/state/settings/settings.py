@@ -98,12 +98,6 @@ def _switch(value: Any) -> bool:
     return str(value) == "true"
 
 
-def _pace(value: Any) -> str:
-    if str(value) not in ("fastest", "slow-start", "every"):
-        raise ValueError(value)
-    return str(value)
-
-
 def _paths(value: Any) -> tuple[Path, ...]:
     return tuple(Path(path) for path in json.loads(value))
 
@@ -120,8 +114,8 @@ FOLDER = Setting("folder", Path(), Path, str)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
-#: One of `hexmend_app.state.run.run_settings.Pace`.
-RUN_PACE = Setting("run_pace", "slow-start", _pace)
+#: Runs wait until each iteration is shown.
+EVERY_ITERATION = Setting("every_iteration", False, _switch, lambda on: "true" if on else "false")
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")
 

@@ -20,7 +20,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.state.session import commands, session_data
 from hexmend_app.state.settings import settings
@@ -140,17 +139,10 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         assert window.session.run.phase is Phase.PAUSED
 
 
-# The pace at which iterations are shown is chosen in a menu and stored.
-
-
-def test_a_pace_is_chosen_in_the_menu_and_stored(window):
-    pace = Pace.EVERY
-    action = window.action(f"pace_{pace.value}")
-    action.trigger()
-    window.refresh()
-    assert window.session.run.pace is pace
-    assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
-    assert Pace(settings.RUN_PACE.get()) is pace
+def test_every_iteration_is_chosen_in_the_menu_and_stored(window):
+    window.action("every_iteration").trigger()
+    assert window.session.run.shows_every
+    assert settings.EVERY_ITERATION.get()
 
 
 # Shortage of memory: the window asks before a run, and nothing changes if the user declines.
