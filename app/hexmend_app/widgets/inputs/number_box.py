@@ -125,48 +125,26 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         self.lineEdit().selectAll()
 
     def _stepped(self, value: float | str, sign: int) -> float | str:
-        """Return the next value up (sign 1) or down (-1)."""
-        low = -math.inf if self._declaration.low is None else self._declaration.low
-        high = math.inf if self._declaration.high is None else self._declaration.high
-        if isinstance(value, str):
-            return self._next_to_word(value, sign)
-        if sign > 0 and value >= high and self._declaration.no_limit:
-            return self._declaration.no_limit
-        if sign < 0 and value <= low and self._declaration.automatic:
-            return self._declaration.automatic
-        if self._declaration.type is int:
-            return int(min(max(value + sign, low), high))
-        default = self._declaration.default
-        magnitude = abs(value) or (0.0 if isinstance(default, str) else abs(default)) or 0.1
-        exponent = math.floor(math.log10(magnitude) + 1e-9)
-        if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
-            exponent -= 1  # the value below 1 is 0.9, not 0
-        stepped = round(value + sign * 10.0**exponent, 12 - exponent)
-        return min(max(stepped, low), high)
-
-    def _next_to_word(self, value: str, sign: int) -> float | str:
-        """Return the next value up or down from a word or percentage: auto is below all numbers, no limit above."""
-        declaration = self._declaration
-        if value == declaration.automatic:
-            return declaration.low if sign > 0 and declaration.low is not None else value
-        if value == declaration.no_limit:
-            return value if sign > 0 else math.inf if declaration.high is None else declaration.high
-        number = float(value[:-1])
-        exponent = math.floor(math.log10(number or 0.1) + 1e-9)
-        return f"{min(max(round(number + sign * 10.0**exponent, 12 - exponent), 0.0), 100.0):.12g}%"
+        """Return the next value up (sign 1) or down (-1); words are beyond the bounds."""
+        declared = self._declaration
+        end, word = (declared.high, declared.no_limit) if sign > 0 else (declared.low, declared.automatic)
+        if value in (declared.automatic, declared.no_limit):
+            bound = declared.low if sign > 0 else declared.high
+            return value if value == word or bound is None else bound
+        if isinstance(value, str):  # a percentage
+            return f"{min(max(_next(float(value[:-1]), sign), 0.0), 100.0):.12g}%"
+        if end is not None and value * sign >= end * sign:
+            return word or value
+        default = 0.0 if isinstance(declared.default, str) else declared.default
+        stepped = value + sign if declared.type is int else _next(value, sign, default)
+        return stepped if end is None else min(stepped * sign, end * sign) * sign
 
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
         """Return the enabled arrows."""
         flags = QAbstractSpinBox.StepEnabledFlag.StepNone
-        value, declaration = self._value, self._declaration
-        if isinstance(value, str):
-            up, down = value != declaration.no_limit, value != declaration.automatic
-        else:
-            up = declaration.high is None or value < declaration.high or bool(declaration.no_limit)
-            down = declaration.low is None or value > declaration.low or bool(declaration.automatic)
-        if up:
+        if self._stepped(self._value, 1) != self._value:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
-        if down:
+        if self._stepped(self._value, -1) != self._value:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
 
@@ -180,6 +158,14 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         """Write a valid value in its shortest form after editing."""
         if not self.problem:
             self.set_value(self._value)
+
+
+def _next(value: float, sign: int, default: float = 0.0) -> float:
+    """Return a number one more (sign 1) or less (-1) in its leading digit, for 0 in that of a default."""
+    exponent = math.floor(math.log10(abs(value) or abs(default) or 0.1) + 1e-9)
+    if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
+        exponent -= 1  # the value below 1 is 0.9, not 0
+    return round(value + sign * 10.0**exponent, 12 - exponent)
 
 
 def _colour_unit(label: QLabel) -> None:

@@ -479,15 +479,15 @@ def test_settings_changed_while_paused_change_the_run(host, qtbot):
         feature.step()
         qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED)
     record = session.run.record
-    assert [stage for _, stage in record.changes] == []
-    feature.panel.stage.parameters.editor("scaling").stepUp()
+    assert len(record.recipe.stages) == 1
+    feature.panel.stage.parameters.editors["scaling"].stepUp()
     feature.step()
     qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED and record.newest == 3)
-    ((number, stage),) = record.changes
-    assert number == 2
-    assert stage.smoother.scaling > 0.25
     with qtbot.waitSignal(session.run.ended):
         session.run.stop()
+    before, after = record.recipe.stages
+    assert before.stop.max_iterations == 2
+    assert after.smoother.scaling > 0.25
 
 
 def test_run_shows_an_invalid_value(host, shown):
@@ -496,7 +496,7 @@ def test_run_shows_an_invalid_value(host, shown):
     panel = shown(feature.panel, 360, 700)
     parameters = panel.findChildren(Section)[0]
     parameters.expand()
-    editor = panel.stage.parameters.editor("scaling")
+    editor = panel.stage.parameters.editors["scaling"]
     editor.lineEdit().setFocus()
     type_text(editor.lineEdit(), "-7")
     assert setup.stage is None
