@@ -23,9 +23,9 @@ LIMIT = HISTORY_MEGABYTES.default << 20
 class History:
     """History of the runs on the open mesh.
 
-    Runs add iterations from their own threads, so that none is lost. If positions exceed the memory limit, some are
-    dropped: the older, the further apart are the rest. Those of the start, the newest iteration and the result of a run
-    are always recorded.
+    Runs add iterations from their own threads, so that none is lost. If positions exceed the memory limit, some of the
+    longest run are dropped. Those of the start, the newest iteration and the result of a run are always
+    recorded.
 
     Parameters
     ----------
@@ -42,8 +42,6 @@ class History:
         self.records: list[RunRecord] = []
         self._limit = limit
         self._bytes = 0
-        self._positions: list[tuple[RunRecord, int, int]] = []  # run, iteration, increasing stamp; by run
-        self._stamp = 0
         self._lock = threading.Lock()
         self._moments: WeakKeyDictionary[State, RecordedIteration] = WeakKeyDictionary()
 
@@ -94,8 +92,6 @@ class History:
                 return
             if offsets is not None:
                 record._offsets[iteration.number] = offsets
-                self._stamp += 1
-                self._positions.insert(self._end_of(record), (record, iteration.number, self._stamp))
                 self._bytes += offsets.nbytes
                 self._thin()
             record.rows.append(row)  # last, so that the positions of every row are there
@@ -114,7 +110,6 @@ class History:
         """Remove a run."""
         with self._lock:
             self.records = [other for other in self.records if other is not record]
-            self._positions = [entry for entry in self._positions if entry[0] is not record]
             self._bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
             record._offsets.clear()
         for state, moment in list(self._moments.items()):
@@ -158,8 +153,6 @@ class History:
             with self._lock:
                 for number, offsets in saved.offsets:
                     record._offsets[number] = offsets
-                    self._stamp += 1
-                    self._positions.append((record, number, self._stamp))
                     self._bytes += offsets.nbytes
         for state, run, number in data.moments:
             self._moments[state] = RecordedIteration(self.records[run], number)
@@ -234,28 +227,15 @@ class History:
         used = {record.slot for record in self.records}
         return next(slot for slot in range(len(used) + 1) if slot not in used)
 
-    def _end_of(self, record: RunRecord) -> int:
-        """Return the place behind the last position of a record, so that its positions stay together."""
-        owners = (owner for owner, *_ in reversed(self._positions))
-        return len(self._positions) - next((at for at, owner in enumerate(owners) if owner is record), 0)
-
     def _thin(self) -> None:
-        """Drop the positions with the smallest gap-to-age ratio until the limit is met.
-
-        Old iterations become sparse.
-        """
+        """Drop the position between the nearest two others, of the run with the most, until the limit is met."""
         while self._bytes > self._limit:
-            numbers = np.array([number for _, number, _ in self._positions])
-            age = self._stamp + 1 - np.array([stamp for _, _, stamp in self._positions])
-            owners = np.array([id(record) for record, _, _ in self._positions])
-            begins = np.append(True, owners[1:] != owners[:-1])
-            ends = np.append(begins[1:], True)
-            before = np.where(begins, 0, np.roll(numbers, 1))
-            gap = np.where(ends, np.inf, np.roll(numbers, -1) - before)
-            if np.isinf(gap).all():
+            record = max(self.records, key=lambda one: len(one._offsets))
+            numbers = [0, *record._offsets]
+            if len(numbers) < 3:
                 break
-            record, number, _ = self._positions.pop(int((gap / age).argmin()))
-            self._bytes -= record._offsets.pop(number).nbytes
+            at = min(range(1, len(numbers) - 1), key=lambda k: numbers[k + 1] - numbers[k - 1])
+            self._bytes -= record._offsets.pop(numbers[at]).nbytes
 
 
 def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> State:

@@ -13,12 +13,14 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.doctor import examine
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
+from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.state.mesh.comparison_base import ComparisonBases
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.selection import Selection
 from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.node_step import explain
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import Comparison
 from hexmend_app.state.run.node_sweep import NodeSweep
 from hexmend_app.state.run.recipe_draft import RecipeDraft
@@ -136,6 +138,7 @@ class Session(QObject):
         document.mesh_replaced.connect(self._drop_unknown_rules)
         document.mesh_replaced.connect(self.feature_states.forget_undeclared)
         document.changes_changed.connect(self._follow_renamed_sets)
+        self.opener.mesh_read.connect(self._reset_settings)
         self.opener.mesh_read.connect(self.time_reader.read)
         self.opener.loaded.connect(self.restore)
         self.opener.restored.connect(self._show_as_picture)
@@ -213,6 +216,14 @@ class Session(QObject):
             self.boundary_classifier, self.node_step_task, self.mesh_checker, self.saver, self.repairer, self.padder,
         ):  # fmt: skip
             part.close()
+
+    def _reset_settings(self) -> None:
+        """Set the next run, breakpoints and materials in the view, set for the mesh before, back to their defaults."""
+        self.run_setup.reset()
+        self.run.set_breakpoints(Breakpoints())
+        look = self.view.look
+        metric = "q" if look.colours.metric == MATERIAL.name else look.colours.metric
+        self.view.change(colours={"metric": metric}, structure=look.structure.without("interfaces"))
 
     def _drop_unknown_rules(self) -> None:
         if self.document.is_open:
