@@ -20,7 +20,6 @@ from hexmend_app.codec.value_text import parse_value
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Text
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
-from hexmend_app.widgets.wording import name_in_words
 
 
 class KeyForm(ParameterForm):
@@ -86,8 +85,7 @@ def _declaration(option: Option, help: str) -> Parameter:
         return Parameter(name, str, option.default, help=help, suggestions=option.offered)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return Parameter(name, str, option.default.value, choices=tuple(kind), help=help)
-    label = tr(name_in_words(name)) + (f" ({tr(option.unit)})" if option.unit else "")
-    return Parameter(name, str, "", help=help, label=label)
+    return Parameter(name, str, "", unit=option.unit, help=help)
 
 
 def _read(option: Option, text: str) -> Any:

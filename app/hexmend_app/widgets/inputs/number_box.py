@@ -6,20 +6,14 @@ import math
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
+from hexmend_app.theme.style import set_variant, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.wording import short_number
-
-#: Maximum length of a unit that is shown after the number, in letters.
-LONGEST_UNIT = 6
 
 
 class NumberBox(FocusedWheel, QAbstractSpinBox):
@@ -31,7 +25,7 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
     Parameters
     ----------
     declaration : Parameter
-        Of type int or float; its unit is shown after the number, unless it is longer than `LONGEST_UNIT`.
+        Of type int or float.
 
     Signals
     -------
@@ -55,19 +49,9 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         line.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         line.textEdited.connect(self._parse)
         line.editingFinished.connect(self._commit)
-        self._show_unit(declaration.unit if len(declaration.unit) <= LONGEST_UNIT else "")
+        line.setTextMargins(0, 0, 2, 0)
+        self.setMinimumWidth(self.fontMetrics().horizontalAdvance("0.00000") + 36)
         self.set_value(declaration.default)
-
-    def _show_unit(self, unit: str) -> None:
-        line = self.lineEdit()
-        suffix = QLabel(unit, line)
-        suffix.setFont(smaller(suffix.font()))
-        suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        on_theme_change(suffix, lambda: _colour_unit(suffix))
-        fill(QHBoxLayout(line), None, suffix, margins=(0, 0, 4, 0))
-        width = suffix.sizeHint().width() + 6 if unit else 2
-        line.setTextMargins(0, 0, width, 0)
-        self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
     def value(self) -> Any:
         """Return the last valid value: a number, a declared word or a percentage."""
@@ -166,11 +150,3 @@ def _next(value: float, sign: int, default: float = 0.0) -> float:
     if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
         exponent -= 1  # the value below 1 is 0.9, not 0
     return round(value + sign * 10.0**exponent, 12 - exponent)
-
-
-def _colour_unit(label: QLabel) -> None:
-    """Set the colour of a unit, except that of disabled ones."""
-    palette = QPalette()
-    for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
-        palette.setColor(group, QPalette.ColorRole.WindowText, QColor(str(MUTED)))
-    label.setPalette(palette)

@@ -17,7 +17,6 @@ from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import labelled, note, set_help, show_text, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
-from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
 from hexmend_app.widgets.wording import label_of, range_of, short_number
 
 
@@ -55,6 +54,7 @@ class ParameterForm(QWidget):
         self._rows = QFormLayout()
         self._rows.setHorizontalSpacing(8)
         self._rows.setVerticalSpacing(4)
+        self._rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._rows.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         self._none = note(tr("No parameters."))
         self._problem = note("", WORSE)
@@ -111,9 +111,8 @@ class ParameterForm(QWidget):
         set_help(editor, name, escape(help) if default == "" else f"{escape(help)}<br><i>{escape(expected)}</i>")
         editor.setAccessibleDescription(help)
         editor.changed.connect(self._on_changed)
-        label = labelled(name, editor)
-        if isinstance(editor, NumberBox) and len(declaration.unit) > LONGEST_UNIT:
-            label.setText(f"{escape(name)}<br><small>{escape(tr(declaration.unit))}</small>")
+        unit = f" <small>({escape(tr(declaration.unit))})</small>" if declaration.unit else ""
+        label = labelled(escape(name) + unit, editor)
         label.setWordWrap(True)
         label.setToolTip(editor.toolTip())
         self._rows.addRow(label, editor)
