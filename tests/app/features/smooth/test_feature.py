@@ -511,7 +511,7 @@ def test_run_shows_an_invalid_value(host, shown):
 
 
 def test_no_time_limit_is_called_none(panel, setup):
-    seconds = panel.stage.stop.editor("max_seconds")
+    seconds = panel.stage.stop.editors["max_seconds"]
     assert seconds.lineEdit().text() == "none"
     type_text(seconds.lineEdit(), "20")
     assert setup.stage.stop.max_seconds == 20
