@@ -28,7 +28,6 @@ MENUS = (
     "File",
     "Edit",
     "Smooth",
-    "Smooth/Iterations in the view",
     "Timeline",
     "View",
     "View/Show",

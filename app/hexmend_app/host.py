@@ -15,7 +15,7 @@ from hexmend_app.translation import tr
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
     from hexmend_app.state.session.session import Session
-    from hexmend_app.state.tasks.mesh_change import BackgroundChange
+    from hexmend_app.state.tasks.mesh_change import MeshChanger
     from hexmend_app.widgets.busy import Busy
     from hexmend_app.widgets.message_bar import MessageBar
 
@@ -82,7 +82,7 @@ class ChangeReport(QObject):
     Parameters
     ----------
     host : Host
-    change : BackgroundChange
+    change : MeshChanger
     key : str
         Identifies the work in `Host.busy`.
     working, cancel_help, failed, cancelled : str
@@ -90,7 +90,7 @@ class ChangeReport(QObject):
     """
 
     def __init__(
-        self, host: Host, change: BackgroundChange, *, key: str, working: str, cancel_help: str, failed: str,
+        self, host: Host, change: MeshChanger, *, key: str, working: str, cancel_help: str, failed: str,
         cancelled: str,
     ):  # fmt: skip
         super().__init__(change)

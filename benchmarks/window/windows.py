@@ -19,7 +19,6 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.settings.settings import store_in
 
@@ -38,7 +37,6 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
         window.resize(1440, 900)
         window.show()
         window.build_features()
-        window.session.run.set_pace(Pace.FASTEST)
         window.build_canvas()
         window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         run_event_loop(0.5)  # until the layout has settled

@@ -21,7 +21,6 @@ from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
 
 #: Screenshots to take: a function that prepares the window, the name of a gallery mesh, and the mesh's parameters.
@@ -58,7 +57,6 @@ def open_window(mesh: str | Path, size: tuple[int, int] = (1280, 800)) -> Window
     process_events(0.5)
     window.build_features()
     window.build_canvas()
-    window.session.run.set_pace(Pace.FASTEST)
     window.features["open"].open(mesh)
     wait_until(lambda: window.session.document.is_open)
     wait_until_drawn(window)

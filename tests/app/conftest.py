@@ -3,7 +3,6 @@
 import gc
 import threading
 from contextlib import ExitStack, contextmanager
-from dataclasses import replace
 from functools import partialmethod
 from pathlib import Path
 
@@ -18,7 +17,6 @@ from hexmend import gallery, io
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
-from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme.style import apply_style
@@ -27,9 +25,6 @@ from tests.app.hosting import PlainHost
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
 from tests.patience import PATIENCE
-
-#: Tests do not wait for runs to be shown, unless they say so.
-settings.RUN_PACE = replace(settings.RUN_PACE, default="fastest")
 
 #: On a busy machine threads end later than a window waits for when it closes.
 task.GRACE = PATIENCE / 1000

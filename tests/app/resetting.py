@@ -11,7 +11,6 @@ from benchmarks.window.windows import end_run
 from hexmend import MotionRules, Stage, StoppingCriteria
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.state.mesh.history import LIMIT
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice
@@ -86,7 +85,7 @@ class Resetting:
         session.run_setup.active_stage = None
         session.run_setup.set_rules(MotionRules())
         session.history.limit = LIMIT
-        session.run.set_pace(Pace.FASTEST)
+        session.run.show_every(False)
         session.timeline.pause()
         session.timeline.set_speed(SPEED)
         session.view.set_handles(True)

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any
 
 from hexmend_app.cli.numbers import direction, invalid_value, numbers
-from hexmend_app.codec.config_table import decode, encode
+from hexmend_app.codec.conversion import decode, encode
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.picture import CutKind, Plane, Range, Scene
 from hexmend_app.picture.appearance import Structure

@@ -1,162 +1,248 @@
-"""Conversion of values to plain data and back, by their declared types."""
+"""Conversion of dataclasses to plain data and back, for scenes and sessions; msgspec checks types and bounds.
+
+Tables of scenes and other dataclasses become dicts of their keys, enumerations their values, tuples and frozensets
+lists. Errors name the place of a value, such as `[bar] ticks`, and what is expected.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import re
 import typing
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Mapping
 from enum import Enum
 from functools import cache
 from types import NoneType, UnionType
 from typing import Any
 
-from hexmend.errors import HexmendError
-from hexmend.parameters import Parametrised, declared
+import msgspec
 
-#: Types of sequences; data of all of them are lists.
-_SEQUENCES = (tuple, list, frozenset)
+from hexmend.errors import HexmendError, ParameterError
+from hexmend.parameters import Parametrised, from_values
+from hexmend_app.codec.option import Option, in_words, options_of
+
+#: Place of a value: names of tables, numbers of entries and the key, outermost first.
+KeyPath = tuple[str | int, ...]
+#: Functions that convert values of some types.
+Hooks = Mapping[type, Callable[[Any], Any]]
 
 
-class DecodeError(HexmendError):
-    """Data that is not of the declared type."""
+class DecodeError(ParameterError):
+    """Invalid value of a key, with its place."""
 
 
-class Conversion:
-    """Recursive conversion along a declared type; `where` is the place of a value in errors."""
+def encode(value: Any, hooks: Hooks | None = None) -> Any:
+    """Return a value as plain data, without empty keys.
 
-    def encode(self, value: Any, kind: Any) -> Any:
-        """Return a value of a declared type as plain data."""
-        origin, inner = typing.get_origin(kind), typing.get_args(kind)
-        if value is None or kind is Any:
-            return value
-        if origin in (UnionType, typing.Union):
-            return self._encode_union(value, _alternatives(inner))
+    Parameters
+    ----------
+    value
+    hooks : mapping of type to callable, optional
+        Returns the data of a value of the type, or of a subclass.
+    """
+    for hooked, hook in (hooks or {}).items():
+        if isinstance(value, hooked):
+            return hook(value)
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, Parametrised):
+        return value.values()
+    kind: Any = type(value)
+    if dataclasses.is_dataclass(value):
+        values = kind.to_keys(value) if hasattr(kind, "to_keys") else vars(value)
+        return {o.name: encode(values[o.field], hooks) for o in options_of(kind) if not _is_default(values[o.field], o)}
+    if isinstance(value, Mapping):
+        return {name: encode(entry, hooks) for name, entry in value.items()}
+    if isinstance(value, tuple | list | frozenset):
+        entries = sorted(value) if isinstance(value, frozenset) else list(value)
+        return entries if {int, float}.issuperset(map(type, entries)) else [encode(entry, hooks) for entry in entries]
+    return value
+
+
+def _is_default(value: Any, option: Option) -> bool:
+    """Return True if a value is empty and the default."""
+    is_empty = value is None or (isinstance(value, str | tuple | dict | frozenset) and not value)
+    return is_empty and value == option.default
+
+
+def decode(kind: Any, data: Any, where: KeyPath = (), hooks: Hooks | None = None) -> Any:
+    """Return a value of a type from plain data; missing keys have their defaults.
+
+    Parameters
+    ----------
+    kind : type
+        A dataclass, or a type made of dataclasses and plain types.
+    data
+        Data as returned by a parser of TOML or JSON.
+    where : tuple
+        Place in the file; empty for the whole file.
+    hooks : mapping of type to callable, optional
+        Returns the value of the type from data.
+
+    Raises
+    ------
+    DecodeError
+    """
+    return _Decoder(hooks or {}).value(Option("", "", kind, None, bounded=False), data, where)
+
+
+def decode_key(option: Option, data: Any) -> Any:
+    """Return the value of a key of a table from plain data, or from a value of its type.
+
+    Raises
+    ------
+    DecodeError
+    """
+    return _Decoder({}).value(option, data, (option.name,))
+
+
+class _Decoder:
+    """Recursion through dataclasses; everything else is converted by msgspec."""
+
+    def __init__(self, hooks: Hooks):
+        self._hooks, self._hooked = hooks, frozenset(hooks)
+
+    def value(self, option: Option, data: Any, where: KeyPath) -> Any:
+        """Return a value of the type of an option."""
+        kinds = [kind for kind in _alternatives(option.kind) if _has_tables(kind, self._hooked)]
+        if not kinds:
+            return _checked(option, data, where)
+        (kind,) = kinds
+        if data is None and kind is not option.kind:
+            return None
+        if kind in self._hooks:
+            return self._convert(kind, data, where)
         if dataclasses.is_dataclass(kind):
-            return self._encode_table(value, kind)
-        if isinstance(value, Enum):
-            return value.value
-        if origin in _SEQUENCES:
-            ordered = sorted(value) if origin is frozenset else value
-            if are_integers(value, kind):
-                return list(ordered)
-            return [self.encode(*entry) for entry in zip(ordered, entry_types(kind, len(value)), strict=True)]
+            return self._table(kind, data, where)
+        origin, inner = typing.get_origin(kind), typing.get_args(kind)
         if origin in (dict, Mapping):
-            return {name: self.encode(entry, inner[1]) for name, entry in value.items()}
+            table = _checked(option._replace(kind=dict[str, Any]), data, where)
+            each, names = option._replace(kind=inner[1]), option._replace(kind=str, most=None)
+            places = {name: (".".join(map(str, (*where, name))),) for name in table}
+            return {_checked(names, name, where): self.value(each, table[name], places[name]) for name in table}
+        is_fixed = origin is tuple and inner[-1] is not Ellipsis
+        form = tuple[(Any,) * len(inner)] if is_fixed else tuple[Any, ...]  # type: ignore[misc]
+        entries = _checked(option._replace(kind=form), data, where)
+        types = inner if is_fixed else (inner[0],) * len(entries)
+        pairs = enumerate(zip(types, entries, strict=True), 1)
+        return origin(self.value(option._replace(kind=of, most=None), one, (*where, at)) for at, (of, one) in pairs)
+
+    def _convert(self, kind: type, data: Any, where: KeyPath) -> Any:
+        try:
+            return self._hooks[kind](data)
+        except (HexmendError, ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
+            raise DecodeError(f"{place_of(where)}: {error}") from None
+
+    def _table(self, kind: Any, data: Any, where: KeyPath) -> Any:
+        if isinstance(data, kind):
+            return data
+        if not isinstance(data, dict):
+            raise DecodeError(f"{place_of(where)} is not a table: expected keys and values")
+        known = {option.name: option for option in options_of(kind)}
+        for name in data:
+            if name not in known:
+                raise DecodeError(
+                    f"{place_of(where)} has an unknown key {str(name)[:80]!r}: expected {', '.join(known)}"
+                )
+        if missing := [name for name, one in known.items() if one.default is dataclasses.MISSING and name not in data]:
+            raise DecodeError(f"{place_of(where)} has no key {missing[0]!r}")
+        try:
+            if issubclass(kind, Parametrised):
+                return from_values(kind, data)
+            values = {known[name].field: self.value(known[name], one, (*where, name)) for name, one in data.items()}
+            return kind.from_keys(values) if hasattr(kind, "from_keys") else kind(**values)
+        except DecodeError:
+            raise
+        except (HexmendError, ValueError) as error:
+            raise DecodeError(f"{place_of(where)}: {error}") from None
+
+
+def _checked(option: Option, value: Any, where: KeyPath) -> Any:
+    """Return a value as the type of an option, within its bounds.
+
+    Raises
+    ------
+    DecodeError
+    """
+    if option.kind is Any:
         return value
-
-    def decode(self, data: Any, kind: Any, where: Any) -> Any:
-        """Return the value of a declared type from plain data."""
-        origin, inner = typing.get_origin(kind), typing.get_args(kind)
-        if kind is Any:
-            return data
-        if origin in (UnionType, typing.Union):
-            alternatives = _alternatives(inner)
-            if data is None and len(alternatives) < len(inner):
-                return None
-            return self._decode_union(data, alternatives, where)
-        if dataclasses.is_dataclass(kind):
-            return self._decode_table(data, kind, where)
-        if isinstance(kind, type) and issubclass(kind, Enum):
-            return self._decode_enum(data, kind, where)
-        if origin in _SEQUENCES:
-            return origin(self._decode_entries(data, kind, where))
-        if origin in (dict, Mapping):
-            return self._decode_mapping(data, inner[1], where)
-        return self._decode_plain(data, kind, where)
-
-    def _encode_union(self, value: Any, kinds: tuple[Any, ...]) -> Any:
-        if len(kinds) == 1:
-            return self.encode(value, kinds[0])
-        return {type(value).__name__: self.encode(value, type(value))}
-
-    def _encode_table(self, value: Any, kind: Any) -> dict[str, Any]:
-        return {name: self.encode(getattr(value, name), field_kind) for name, field_kind in _fields(kind).items()}
-
-    def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: Any) -> Any:
-        if len(kinds) == 1:
-            return self.decode(data, kinds[0], where)
-        _check(data, dict, where)
-        named = {kind.__name__: kind for kind in kinds}
-        if len(data) != 1 or next(iter(data)) not in named:
-            raise DecodeError(f"{where} is none of {', '.join(named)}")
-        ((name, inside),) = data.items()
-        return self.decode(inside, named[name], where)
-
-    def _decode_table(self, data: Any, kind: Any, where: Any) -> Any:
-        _check(data, dict, where)
-        fields = _fields(kind)
-        for name in [*fields, *data]:
-            if (name in fields) != (name in data):
-                raise DecodeError(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
-        words = _words(kind)
-        values = {
-            name: one if (one := data[name]) in words.get(name, ()) else self.decode(one, of_type, f"{where}.{name}")
-            for name, of_type in fields.items()
-        }
-        return kind(**values)
-
-    def _decode_enum(self, data: Any, kind: type[Enum], where: Any) -> Any:
-        return kind(data)
-
-    def _decode_entries(self, data: Any, kind: Any, where: Any) -> Collection[Any]:
-        _check(data, list, where)
-        count = fixed_length(kind)
-        if count not in (None, len(data)):
-            raise DecodeError(f"{where} has {len(data)} entries: expected {count}")
-        if are_integers(data, kind):
-            return data
-        kinds = entry_types(kind, len(data))
-        entries = zip(data, kinds, strict=True)
-        return [self.decode(entry, entry_kind, f"{where}[{at}]") for at, (entry, entry_kind) in enumerate(entries)]
-
-    def _decode_mapping(self, data: Any, kind: Any, where: Any) -> dict[str, Any]:
-        _check(data, dict, where)
-        return {name: self.decode(value, kind, f"{where}.{name}") for name, value in data.items()}
-
-    def _decode_plain(self, data: Any, kind: type, where: Any) -> Any:
-        if kind is float and type(data) is int:
-            return float(data)
-        _check(data, kind, where)
-        return data
+    try:
+        return msgspec.convert(value, _schema(option._replace(default=None)))
+    except msgspec.ValidationError as error:
+        converted = _without_numpy(value)
+        if converted is not value:
+            return _checked(option, converted, where)
+        raise DecodeError(_sentence(option, value, where, str(error))) from None
 
 
-def _alternatives(kinds: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the types of a union without NoneType."""
-    return tuple(kind for kind in kinds if kind is not NoneType)
+_schema = cache(Option.schema)
 
 
-def fixed_length(kind: Any) -> int | None:
-    """Return the number of entries of a sequence type such as `tuple[float, float]`; None if it has no fixed length."""
-    inner = typing.get_args(kind)
-    return len(inner) if typing.get_origin(kind) is tuple and inner[-1:] != (Ellipsis,) else None
+def _without_numpy(value: Any) -> Any:
+    """Return a value with numbers of Python instead of NumPy's; the value itself if it has none."""
+    if isinstance(value, tuple | list):
+        entries = [_without_numpy(entry) for entry in value]
+        return value if all(a is b for a, b in zip(entries, value, strict=True)) else entries
+    return value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else value
 
 
-def entry_types(kind: Any, count: int) -> tuple[Any, ...]:
-    """Return the declared types of the entries of a sequence type."""
-    inner = typing.get_args(kind)
-    return inner if fixed_length(kind) is not None else (inner[0],) * count
+def _sentence(option: Option, value: Any, where: KeyPath, error: str) -> str:
+    """Return an error of msgspec in words."""
+    kinds = _alternatives(option.kind)
+    for at in re.findall(r"\[([^]]+)\]", error.partition(" - at `$")[2]):
+        inner = typing.get_args(kinds[-1])
+        if at.isdigit():  # of a list; the keys of a table are not given
+            value = list(value)[int(at)]
+        kinds = (inner[0] if at.isdigit() else inner[-1],)
+    place = place_of(where) if len(where) != 1 else str(where[0])  # a key of a table that is not known yet
+    words = " or ".join(map(in_words, kinds))
+    if "of length" in error and not isinstance(value, str):
+        count = len(typing.get_args(kinds[-1])) if option.most is None else option.most
+        problem, words = f"has {len(value)} entries", str(count)
+    elif isinstance(value, str) and str in kinds:
+        problem, words = "is not a line of text", f"{option.most or 200} characters at most"
+    elif ">=" in error or "<=" in error or "out of range" in error:
+        problem, words = "is out of range", words + option.bounds
+    elif words.startswith("one of "):
+        problem, words = "is unknown", words.removeprefix("one of ")
+    else:
+        problem, words = f"is not {words}", words.replace("a boolean", "true or false")
+        words += " such as [1, 2]" if words == "a list" else option.bounds
+    return f"{place} = {_repr_of(value)} {problem}: expected {words}"
 
 
-def are_integers(entries: Collection[Any], kind: Any) -> bool:
-    """Return True if a sequence type is one of integers, and all entries are: they need no conversion one by one."""
-    return {int, ...}.issuperset(typing.get_args(kind)) and {int}.issuperset(map(type, entries))
+def _alternatives(kind: Any) -> tuple[Any, ...]:
+    """Return the types of a union without NoneType, or the type itself."""
+    is_union = typing.get_origin(kind) in (UnionType, typing.Union)
+    return tuple(one for one in typing.get_args(kind) if one is not NoneType) if is_union else (kind,)
 
 
 @cache
-def _fields(kind: type) -> dict[str, Any]:
-    """Return names and types of the fields of a dataclass."""
-    types = typing.get_type_hints(kind)
-    return {field.name: types[field.name] for field in dataclasses.fields(kind) if field.init}
+def _has_tables(kind: Any, hooked: frozenset[type]) -> bool:
+    """Return True if a type is one with a hook, a dataclass, or has entries of such types."""
+    is_table = kind in hooked or dataclasses.is_dataclass(kind)
+    return is_table or any(_has_tables(one, hooked) for one in typing.get_args(kind))
 
 
-@cache
-def _words(kind: type) -> dict[str, list[str]]:
-    """Return the words that parameters of a dataclass may be in place of numbers, such as auto."""
-    if not issubclass(kind, Parametrised):
-        return {}
-    return {one.name: [word for word in (one.automatic, one.no_limit) if word] for one in declared(kind)}
+def place_of(path: KeyPath) -> str:
+    """Return a place as text.
+
+    >>> place_of(("bar", "ticks")), place_of(("panels", 2, "mesh")), place_of(("cut", "planes", 1, "normal"))
+    ('[bar] ticks', '[panels 2] mesh', '[cut] planes 1 normal')
+    """
+    if not path:
+        return "the file"
+    inside = 2 if len(path) > 1 and isinstance(path[1], int) else 1
+    table, rest = " ".join(map(str, path[:inside])), " ".join(map(str, path[inside:]))
+    return f"[{table}] {rest}".rstrip()
 
 
-def _check(data: Any, kind: type, where: Any) -> None:
-    if not isinstance(data, kind) or (isinstance(data, bool) and kind is not bool):
-        raise DecodeError(f"{where} is of another type: expected {kind.__name__}")
+def _repr_of(value: Any) -> str:
+    """Return the text of a value for errors."""
+    if isinstance(value, int) and abs(value) > 1e300:
+        return "a huge number"
+    try:
+        text = repr(list(value) if isinstance(value, tuple) else value)
+    except RecursionError:  # deeper nesting than `repr` supports
+        return "a table"
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -42,7 +42,7 @@ def answer(window, feature, path, title, names, **style):
             for own, name in names.items():
                 dialog.names[own].setText(name)
             for name, value in style.items():
-                dialog.form.editor(name).set_value(value)
+                dialog.form.editors[name].set_value(value)
             dialog.accept()
         finally:
             said.extend(one.text() for one in dialog.findChildren(QLabel) if one.accessibleName() == "Problem")

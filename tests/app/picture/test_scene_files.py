@@ -68,7 +68,7 @@ def test_a_camera_is_one_line(camera):
 
 ERRORS = [
     ("[bar]\ntick = 3", "[bar] has an unknown key 'tick': expected place, ticks, title"),
-    ("bars = 1", "the scene has an unknown key 'bars': expected format, camera"),
+    ("bars = 1", "the file has an unknown key 'bars': expected format, camera"),
     ("format = 2", "format = 2 is not read: expected 1; use the Hexmend that wrote it"),
     ("cut = 3", "[cut] is not a table"),
     ("[page]\ndpi = 'x'", "[page] dpi = 'x' is not a number: expected a number from 5 to 4,800"),

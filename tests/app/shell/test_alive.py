@@ -135,7 +135,7 @@ def doubled(window, qtbot, tmp_path):
 
 
 def test_a_mesh_is_repaired_while_the_window_is_alive(doubled, qtbot, gate):
-    session, repairing = doubled.session, gate(mesh_change, "_repair")
+    session, repairing = doubled.session, gate(mesh_change, "repair")
     before = session.document.now
     assert session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set)
@@ -159,7 +159,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(doubled, qtbot, gate):
 @pytest.mark.slow
 @pytest.mark.parametrize("end", ["cancel", "open another"])
 def test_a_repair_that_is_given_up_changes_nothing(doubled, qtbot, gate, end, mesh_file):
-    session, repairing = doubled.session, gate(mesh_change, "_repair")
+    session, repairing = doubled.session, gate(mesh_change, "repair")
     session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set)
     if end == "cancel":

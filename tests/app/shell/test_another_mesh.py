@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from hexmend import METHODS, StoppingCriteria, gallery, io
+from hexmend import METHODS, MotionRules, Stage, StoppingCriteria, gallery, io
 from hexmend_app.picture.appearance import Arrows, Structure, Traces
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
@@ -43,7 +43,7 @@ def everything(window, qtbot):
     session.timeline.go(session.history.records[-1], 1)
     structure = Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original")
     session.view.change(movement=Traces(arrows=Arrows.ALL), structure=structure, colours={"metric": "q-change"})
-    session.run.break_at(Breakpoints(hex=last_hex, node=last_node))
+    session.run.set_breakpoints(Breakpoints(hex=last_hex, node=last_node))
     for letter in (Qt.Key.Key_V, Qt.Key.Key_W):  # beside, and the wipe
         key(window, letter)
     assert len(window.canvas.panes.all) == 2
@@ -72,6 +72,19 @@ def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file):
     for letter in (Qt.Key.Key_N, Qt.Key.Key_D, Qt.Key.Key_V, Qt.Key.Key_T, Qt.Key.Key_Escape):
         key(window, letter)
     is_shown(window)
+
+
+def test_settings_for_the_mesh_before_are_reset(window, qtbot, small_file):
+    session = window.session
+    choose(window, "mend", StoppingCriteria(max_iterations=7), boundary="slide")
+    session.run_setup.set_rules(MotionRules(interfaces="slide"))
+    session.run.set_breakpoints(Breakpoints(inverts=True))
+    session.view.change(colours={"metric": "material"}, structure=Structure.of("interfaces"))
+    open_and_wait(qtbot, window, small_file)
+    assert session.run_setup.stage == Stage(METHODS["mend"](), StoppingCriteria())
+    assert (session.run_setup.rules, session.run.breakpoints) == (MotionRules(), Breakpoints())
+    assert session.view.look.colours.metric == "q"
+    assert not session.view.look.structure.is_on("interfaces")
 
 
 @pytest.mark.slow

@@ -89,8 +89,7 @@ FRONTS = [
     ("inside", "histogram", "outcome"),
     ("run", "histogram", "doctor"),
     ("run", "histogram", "compare"),
-    ("look", "histogram", "script"),
-    ("look", "histogram", "console"),
+    ("look", "histogram", "reproduce"),
 ]
 
 

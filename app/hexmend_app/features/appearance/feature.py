@@ -130,7 +130,7 @@ class FeatureAppearance(Feature):
         kinds = (None, None) if classes is None else (classes.kinds, classes.original_kinds)
         original = session.document.start.mesh.points if look.structure.is_on("original") else None
         if self._seen.changed("frame", now, movement, look, original, *kinds):
-            live = session.run.phase is Phase.RUNNING and session.run.view.following
+            live = session.run.phase is Phase.RUNNING and session.run.following
             self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, *kinds), live)
         if self._seen.changed("handles", look.cut, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)

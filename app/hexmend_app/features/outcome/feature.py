@@ -95,7 +95,9 @@ class FeatureOutcome(Feature):
             self._empty_run = (self.session.timeline.record, record.name, advice)
         elif record.end is not None:
             title, text = self._notice = notice(record, record.start.summary, record.end.summary)
+            better = (tr("Go to {number}", number=record.better), partial(self._go_to_better, record))
             choices = (
+                *([] if record.better is None else [better]),
                 (tr("Compare"), partial(self._compare, record)),
                 (tr("Undo"), partial(self._do, "undo", record)),
                 (tr("Save…"), partial(self._do, "save", record)),
@@ -108,6 +110,11 @@ class FeatureOutcome(Feature):
             self.host.action(action).trigger()
         else:
             self.host.messages.show_info(tr("The mesh has changed since {name} ended.", name=record.name))
+
+    def _go_to_better(self, record: RunRecord) -> None:
+        """Show the iteration that the method ranks higher than the one at which the user stopped the run."""
+        if record in self.session.history.records:
+            self.session.timeline.go(record, record.better)
 
     def _compare(self, record: RunRecord) -> None:
         """Show the mesh before a run next to its result."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from hexmend.parameters import Parameter, Parametrised, declared
-from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
@@ -14,14 +13,6 @@ from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
-from hexmend_app.widgets.wording import label_of, short_number
-
-_LIMITS = {
-    "max_iterations": "at most {value} iterations",
-    "tolerance": "tolerance {value}",
-    "max_seconds": "at most {value} s",
-    "keep_last": "keep the last iteration",
-}
 
 
 class FeatureRecipe(Feature):
@@ -32,16 +23,9 @@ class FeatureRecipe(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        draft, setup = self.session.recipe_draft, self.session.run_setup
-        self._draft, self._smoothing = draft, self.session.run
+        self._draft, self._smoothing = self.session.recipe_draft, self.session.run
         self._seen = ChangeTracker()
-        panel = self.panel = RecipePanel()
-        panel.add_button.clicked.connect(lambda: setup.use(self._add))
-        panel.replace_requested.connect(lambda at: setup.use(lambda stage: draft.replace(at, stage)))
-        panel.edit_requested.connect(self._edit)
-        panel.move_requested.connect(self._move)
-        panel.remove_requested.connect(draft.remove)
-        panel.renamed.connect(draft.rename)
+        panel = self.panel = RecipePanel(self._draft, self.session.run_setup)
         panel.run_button.clicked.connect(self.run)
         panel.load_requested.connect(self.ask_load)
         panel.save_button.clicked.connect(self.ask_save)
@@ -98,10 +82,8 @@ class FeatureRecipe(Feature):
 
     def refresh(self) -> None:
         """Show the stages and mark the active one."""
-        draft, smoothing = self._draft, self._smoothing
-        if self._seen.changed("stages", draft.stages, draft.title):
-            default_title = Recipe.of(*draft.stages).title if draft.stages else ""
-            self.panel.set_stages([_text(stage) for stage in draft.stages], draft.title, default_title)
+        smoothing = self._smoothing
+        self.panel.show_draft()
         self.panel.set_editable(self.session.editable)
         running = smoothing.busy and isinstance(smoothing.work, Recipe)
         number = smoothing.record.rows[-1].get("stage") if running and smoothing.record.rows else None
@@ -127,7 +109,7 @@ class FeatureRecipe(Feature):
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
         if self.host.try_and_report(tr("Recipe not loaded"), lambda: self._draft.load(read_recipe(path))):
-            self._select(0)
+            self.panel.select(0)
 
     def ask_save(self) -> None:
         """Ask for a file and save the recipe."""
@@ -142,47 +124,3 @@ class FeatureRecipe(Feature):
             lambda: write_recipe(Path(path), self._draft.recipe),
             tr("Recipe saved to {path}", path=path),
         )
-
-    def _add(self, stage: Stage) -> None:
-        self._draft.add(stage)
-        self._select(len(self._draft.stages) - 1)
-
-    def _move(self, at: int, to: int) -> None:
-        self._draft.move(at, to)
-        self._select(to)
-
-    def _select(self, at: int) -> None:
-        self.refresh()  # the stage must be listed before it is selected
-        self.panel.select(at)
-
-    def _edit(self, at: int) -> None:
-        if self.session.editable:
-            self.session.run_setup.choose(self._draft.stages[at])
-
-
-def _text(stage: Stage) -> tuple[str, str]:
-    """Return the title of a stage with its changed values, and its help."""
-    values = [*_changed_values(stage.smoother), *_changed_values(stage.stop, _LIMITS)]
-    method = tr(stage.smoother.title)
-    title = f"{method} ({', '.join(values)})" if values else method
-    return title, f"{title}: {tr(stage.smoother.help)}"
-
-
-def _value_text(parameter: Parameter, template: str | None, value: str) -> str:
-    """Return the text of a value, by a template or with the label before it."""
-    return tr(template, value=value) if template else f"{label_of(parameter)} {value}"
-
-
-def _changed_values(part: Parametrised, templates: Mapping[str, str] | None = None) -> list[str]:
-    """Return the texts of values that differ from the defaults, by templates or names."""
-    return [
-        _value_text(parameter, (templates or {}).get(parameter.name), _value(value))
-        for parameter in declared(part)
-        if (value := getattr(part, parameter.name)) != parameter.default
-    ]
-
-
-def _value(value: object) -> str:
-    if isinstance(value, bool):
-        return "on" if value else "off"
-    return short_number(value) if isinstance(value, float) else str(value)

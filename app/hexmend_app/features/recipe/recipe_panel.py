@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 from pathlib import Path
 
@@ -19,14 +19,27 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from hexmend.parameters import Parametrised, declared
+from hexmend.run.recipe import Recipe, Stage
+from hexmend_app.feature import ChangeTracker
+from hexmend_app.state.run.recipe_draft import RecipeDraft
+from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.spacing import fill, on_grid
 from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import label_of, short_number
 
 _EMPTY = (
     "No stages. Select a method above and add it, or load a recipe. Each stage starts from the best result of the "
     "stage before it."
 )
+#: Texts of limits.
+_LIMITS = {
+    "max_iterations": "at most {value} iterations",
+    "tolerance": "tolerance {value}",
+    "max_seconds": "at most {value} s",
+    "keep_last": "keep the last iteration",
+}
 #: Maximum number of stages visible without scrolling.
 _VISIBLE = 4
 
@@ -34,43 +47,39 @@ _VISIBLE = 4
 class RecipePanel(QWidget):
     """List of the stages with buttons to edit them.
 
+    Parameters
+    ----------
+    draft : RecipeDraft
+    setup : RunSetup
+        Its stage is added, and a stage that is edited becomes its stage.
+
     Signals
     -------
-    replace_requested(int)
-        Replace a stage by the method of the smoothing panel.
-    edit_requested(int)
-        Show a stage in the smoothing panel.
-    move_requested(int, int), remove_requested(int)
-    renamed(str)
     load_requested
     shipped_requested(Path)
         Load a recipe that comes with Hexmend.
     """
 
-    replace_requested = Signal(int)
-    edit_requested = Signal(int)
-    move_requested = Signal(int, int)
-    remove_requested = Signal(int)
-    renamed = Signal(str)
     load_requested = Signal()
     shipped_requested = Signal(object)
 
-    def __init__(self, parent: QWidget | None = None):
+    def __init__(self, draft: RecipeDraft, setup: RunSetup, parent: QWidget | None = None):
         super().__init__(parent)
+        self._draft, self._setup = draft, setup
+        self._seen = ChangeTracker()
         self._editable = True
         self._title = QLineEdit()
         set_help(self._title, tr("Title of the recipe"), tr("Name of the recipe in tables; saved with it."))
-        self._title.editingFinished.connect(self._on_title)
-        self._shown_title = ""
+        self._title.editingFinished.connect(self._rename)
         self._list = QListWidget()
         self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         set_help(
             self._list, tr("Stages"), tr("Stages in running order. Press Enter or double-click to edit a stage above.")
         )
-        self._list.itemActivated.connect(lambda item: self.edit_requested.emit(self._list.row(item)))
+        self._list.itemActivated.connect(self._edit)
         self._list.currentRowChanged.connect(self._enable)
         self._empty = note(tr(_EMPTY))
-        self.add_button = self._button(
+        self._add = self._button(
             "plus", tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage.")
         )
         self._replace = self._button(
@@ -91,13 +100,12 @@ class RecipePanel(QWidget):
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
         self._load.setMenu(self._menu)
-        self._replace.clicked.connect(lambda: self.replace_requested.emit(self._list.currentRow()))
+        self._add.clicked.connect(lambda: setup.use(self._add_stage))
+        self._replace.clicked.connect(lambda: setup.use(lambda stage: draft.replace(self._list.currentRow(), stage)))
         self._up.clicked.connect(lambda: self._move(-1))
         self._down.clicked.connect(lambda: self._move(1))
-        self._remove.clicked.connect(lambda: self.remove_requested.emit(self._list.currentRow()))
-        self.set_shipped(())
+        self._remove.clicked.connect(lambda: draft.remove(self._list.currentRow()))
         self._lay_out()
-        self.set_stages(())
 
     def _button(self, icon_name: str, text: str, help: str, name: str = "") -> QPushButton:
         button = QPushButton(icon(icon_name), text)
@@ -108,7 +116,7 @@ class RecipePanel(QWidget):
 
     def _lay_out(self) -> None:
         head = fill(QHBoxLayout(), labelled(tr("Title"), self._title), (self._title, 1), spacing=4)
-        edit = fill(QHBoxLayout(), (self.add_button, 1), self._replace, self._up, self._down, self._remove, spacing=4)
+        edit = fill(QHBoxLayout(), (self._add, 1), self._replace, self._up, self._down, self._remove, spacing=4)
         foot = on_grid(QGridLayout())
         for column, button in enumerate((self.run_button, self._load)):
             button.setMinimumWidth(button.minimumSizeHint().width())
@@ -127,37 +135,33 @@ class RecipePanel(QWidget):
             action.setToolTip(tr("Built-in recipe {name}.", name=path.name))
             action.triggered.connect(lambda _=False, path=path: self.shipped_requested.emit(path))
 
-    def set_stages(self, stages: Sequence[tuple[str, str]], title: str = "", default_title: str = "") -> None:
-        """Show the stages without sending a signal.
-
-        Parameters
-        ----------
-        stages : sequence of (text, help)
-        title, default_title : str
-            Title of the recipe, and its placeholder while the title is "".
-        """
+    def show_draft(self) -> None:
+        """Show the stages and the title of the draft, if they have changed."""
+        stages, title = self._draft.stages, self._draft.title
+        if not self._seen.changed("stages", stages, title):
+            return
         row = self._list.currentRow()
-        self._list.blockSignals(True)
-        self._list.clear()
-        for number, (text, help) in enumerate(stages, start=1):
-            item = QListWidgetItem(f"{number}  {text}")
-            item.setToolTip(f"<qt>{escape(help)}</qt>")
-            item.setSizeHint(QSize(1, self._list.fontMetrics().height() + 4))  # long texts are elided, not scrolled
-            self._list.addItem(item)
-        self._list.setCurrentRow(min(row, len(stages) - 1))
-        self._list.blockSignals(False)
+        with QSignalBlocker(self._list):
+            self._list.clear()
+            for number, stage in enumerate(stages, start=1):
+                text = stage_title(stage)
+                item = QListWidgetItem(f"{number}  {text}")
+                item.setToolTip(f"<qt>{escape(text)}: {escape(tr(stage.smoother.help))}</qt>")
+                item.setSizeHint(QSize(1, self._list.fontMetrics().height() + 4))  # texts are elided, not scrolled
+                self._list.addItem(item)
+            self._list.setCurrentRow(min(row, len(stages) - 1))
         height = self._list.sizeHintForRow(0) if stages else 0
         self._list.setFixedHeight(height * min(len(stages), _VISIBLE) + 2 * self._list.frameWidth() + 2)
         self._list.setVisible(bool(stages))
         self._empty.setVisible(not stages)
-        self._shown_title = title
         self._title.setText(title)
-        self._title.setPlaceholderText(default_title)
+        self._title.setPlaceholderText(Recipe.of(*stages).title if stages else "")
         self._title.setCursorPosition(0)
         self._enable()
 
     def select(self, at: int) -> None:
-        """Select a stage without sending a signal."""
+        """Select a stage without sending a signal; it is listed first."""
+        self.show_draft()
         with QSignalBlocker(self._list):
             self._list.setCurrentRow(at)
         self._enable()
@@ -175,17 +179,26 @@ class RecipePanel(QWidget):
         self._editable = editable
         self._enable()
 
+    def _add_stage(self, stage: Stage) -> None:
+        self._draft.add(stage)
+        self.select(len(self._draft.stages) - 1)
+
+    def _edit(self, item: QListWidgetItem) -> None:
+        if self._editable:
+            self._setup.choose(self._draft.stages[self._list.row(item)])
+
     def _move(self, by: int) -> None:
         at = self._list.currentRow()
-        self.move_requested.emit(at, at + by)
+        self._draft.move(at, at + by)
+        self.select(at + by)
 
-    def _on_title(self) -> None:
-        if self._title.text().strip() != self._shown_title:
-            self.renamed.emit(self._title.text())
+    def _rename(self) -> None:
+        if self._title.text().strip() != self._draft.title:
+            self._draft.rename(self._title.text())
 
     def _enable(self) -> None:
         count, at = self._list.count(), self._list.currentRow()
-        for widget in (self._title, self.add_button, self._load):
+        for widget in (self._title, self._add, self._load):
             widget.setEnabled(self._editable)
         for button in (self._replace, self._remove):
             button.setEnabled(self._editable and at >= 0)
@@ -193,3 +206,22 @@ class RecipePanel(QWidget):
         self._down.setEnabled(self._editable and 0 <= at < count - 1)
         self.run_button.setEnabled(self._editable and count > 0)
         self.save_button.setEnabled(count > 0)
+
+
+def stage_title(stage: Stage) -> str:
+    """Return the title of a stage with its changed values."""
+    values = [*_changed_values(stage.smoother, {}), *_changed_values(stage.stop, _LIMITS)]
+    method = tr(stage.smoother.title)
+    return f"{method} ({', '.join(values)})" if values else method
+
+
+def _changed_values(part: Parametrised, templates: Mapping[str, str]) -> Iterator[str]:
+    """Yield the texts of values that differ from the defaults, by templates or names."""
+    for parameter in declared(part):
+        value = getattr(part, parameter.name)
+        if value != parameter.default:
+            text = short_number(value) if isinstance(value, float) else str(value)
+            if isinstance(value, bool):
+                text = "on" if value else "off"
+            template = templates.get(parameter.name)
+            yield tr(template, value=text) if template else f"{label_of(parameter)} {text}"

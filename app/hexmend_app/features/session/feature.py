@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from PySide6.QtCore import Qt
+
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.recovery import RecoveredSession, Recovery
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_session
-from hexmend_app.widgets.wording import counted
 
 
 class FeatureSession(Feature):
@@ -27,7 +28,8 @@ class FeatureSession(Feature):
         super().__init__(host)
         self.recovery = Recovery(self.session, self)
         self.recovery.failed.connect(self._on_failed)
-        self.session.feature_states.failed.connect(self._on_state_failed)
+        # Later, because opening a file clears the messages.
+        self.session.feature_states.failed.connect(self._on_state_failed, Qt.ConnectionType.QueuedConnection)
         self._failed = False
         self._offered: set[RecoveredSession] = set()
 
@@ -119,16 +121,14 @@ def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
     >>> from datetime import datetime
     >>> from pathlib import Path
     >>> from PySide6.QtCore import QLockFile
-    >>> recovery_offer(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
+    >>> recovery_offer(RecoveredSession(Path("five.vtu.hexmend"), QLockFile("lock"), datetime(2026, 3, 1, 14, 5)))[0]
     'five.vtu can be recovered'
     """
-    runs = "" if not crashed.runs else tr(", with {runs}", runs=counted(crashed.runs, "run"))
     when = tr("{time} on {date}", time=f"{crashed.when:%H:%M}", date=f"{crashed.when.day} {crashed.when:%B %Y}")
     return (
-        tr("{name} can be recovered", name=crashed.name or tr("A mesh")),
+        tr("{name} can be recovered", name=crashed.name),
         tr(
-            "Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}{runs}.",
+            "Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}.",
             when=when,
-            runs=runs,
         ),
     )

@@ -23,12 +23,10 @@ from hexmend_app.feature import (
     PanelPlace,
     StatePart,
 )
-from hexmend_app.features.smooth.pace_actions import pace_actions
 from hexmend_app.features.smooth.run_states import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
@@ -55,8 +53,8 @@ class FeatureSmooth(Feature):
         self._seen = ChangeTracker()
         self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
-        panel.breakpoint_form.changed.connect(smoothing.break_at)
-        smoothing.set_pace(Pace(settings.RUN_PACE.get()))
+        panel.breakpoint_form.changed.connect(smoothing.set_breakpoints)
+        smoothing.show_every(settings.EVERY_ITERATION.get())
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
@@ -110,7 +108,16 @@ class FeatureSmooth(Feature):
     def _option_actions(self) -> Sequence[Action]:
         """Return the actions for options of runs, and for their command."""
         return (
-            *pace_actions(self._smoothing),
+            Action(
+                id="every_iteration",
+                text=tr("Show e&very iteration"),
+                menu="Smooth",
+                part=3,
+                help=tr("Show every iteration; the run waits until it is drawn."),
+                handle=self._show_every,
+                checked=lambda: self._smoothing.shows_every,
+                needs_mesh=False,
+            ),
             Action(
                 id="copy_command",
                 text=tr("&Copy as command"),
@@ -271,6 +278,11 @@ class FeatureSmooth(Feature):
         goal, view = getattr(self._smoothing.work, "goal", ""), self.session.view
         if goal == _SCALED_JACOBIAN and view.look.colours.metric == "q":
             view.change(colours={"metric": _SCALED_JACOBIAN})
+
+    def _show_every(self, on: bool) -> None:
+        """Show every iteration or the newest, and store the choice."""
+        self._smoothing.show_every(on)
+        settings.EVERY_ITERATION.set(on)
 
     def _copy_command(self, stage: Stage) -> None:
         """Copy the command that runs a stage on the file of the mesh."""

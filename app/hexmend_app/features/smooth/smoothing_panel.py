@@ -133,6 +133,6 @@ class SmoothingPanel(QWidget):
         form = self.stage.invalid_form
         if form is not None:
             self._sections[0 if form is self.stage.parameters else 2].expand()
-            form.show_problem()
+            form.focus_problem()
             self._refused = True
             self._show_sentence(tr("Correct the marked value first."), WORSE)

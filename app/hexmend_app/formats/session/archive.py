@@ -7,22 +7,45 @@ of its text. An array that occurs several times in the tree is written once, and
 from __future__ import annotations
 
 import json
+import math
+import re
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
+from hexmend.arrays import as_immutable
 from hexmend.errors import FileError
-from hexmend_app.formats.session.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, ArrayReader, open_members
+
+#: Member that describes the tree; it comes first.
+DESCRIPTION = "description.json"
+#: Largest size of the description in bytes.
+LARGEST = 256 << 20
+
+#: Remedies for a damaged file, and for a file of another program.
+REMEDY = "Use an earlier copy, or open the mesh that it was made from."
+NOT_OURS = "Choose a file that Hexmend wrote."
+
+#: Folder of the arrays.
+ARRAYS = "arrays"
+MEMBER = re.compile(rf"{ARRAYS}/(0|[1-9]\d{{0,8}})\.npy")
+#: Header of an .npy file from `write_archive`; NumPy's own parser accepts more and fails in more ways.
+_HEADER = re.compile(
+    rb"\{'descr': '(?P<type>[<>|][biufcSU]\d{1,9})', 'fortran_order': (?P<columns>True|False), "
+    rb"'shape': \((?P<shape>(\d{1,18}, ?){0,32}(\d{1,18})?)\), \} *\n"
+)
+_MAGIC = b"\x93NUMPY\x01\x00"
+#: Longest header in bytes, for 32 axes.
+_LONGEST_HEADER = 1024
+#: Bytes that are read at a time.
+_CHUNK = 1 << 24
 
 #: Key of an array's number in the description. A further "$" precedes keys of the tree that begin with "$".
 _ARRAY = "$array"
 #: Kinds of NumPy types that are plain data.
 _KINDS = "biufcSU"
-#: Bytes that are written at a time.
-_CHUNK = 1 << 24
 
 
 def write_archive(path: str | Path, format: str, version: int, data: Any) -> None:
@@ -47,50 +70,19 @@ def write_archive(path: str | Path, format: str, version: int, data: Any) -> Non
     def number(array: np.ndarray) -> int:
         return arrays.setdefault(id(array), (len(arrays), array))[0]
 
-    description = encode_description(path, format, version, data, number)
+    try:
+        description = json.dumps({"format": format, "version": version, "data": _encode(data, number)})
+    except TypeError as error:
+        raise FileError(path, f"cannot hold {error}") from None
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
         archive.writestr(DESCRIPTION, description)
         for at, array in arrays.values():
             with archive.open(f"{ARRAYS}/{at}.npy", "w", force_zip64=True) as member:
-                write_array(member, array)
-
-
-def encode_description(path: Any, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
-    """Encode the description of a tree as JSON.
-
-    Parameters
-    ----------
-    path : Path
-        Named in errors.
-    format, version, data
-        As of `write_archive`.
-    number : callable
-        number(array) returns the number under which an array is stored.
-
-    Raises
-    ------
-    FileError
-        For a value of another type.
-    """
-    try:
-        return json.dumps({"format": format, "version": version, "data": _encode(data, number)})
-    except TypeError as error:
-        raise FileError(path, f"cannot hold {error}") from None
-
-
-def write_array(member: IO[bytes], array: np.ndarray) -> None:
-    """Write an array as .npy, without a copy and without blocking other threads for long."""
-    if not array.flags.c_contiguous or not array.nbytes:
-        np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
-        return
-    np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
-    data = array.reshape(-1).view(np.uint8).data
-    for at in range(0, len(data), _CHUNK):
-        member.write(data[at : at + _CHUNK])
+                np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
 
 
 def read_archive(path: str | Path, format: str, version: int) -> Any:
-    """Read a zip file from `write_archive`, or a folder from `hexmend_app.formats.session.folder`.
+    """Read a file from `write_archive`; its content is not trusted.
 
     Parameters
     ----------
@@ -112,11 +104,10 @@ def read_archive(path: str | Path, format: str, version: int) -> Any:
     """
     path = Path(path)
     try:
-        with open_members(path) as members:
-            with members.open(DESCRIPTION) as file:
-                description = json.loads(file.read())
-            tree = _check(path, description, format, version)
-            return _decode(tree, ArrayReader(path, members))
+        with zipfile.ZipFile(path) as archive:
+            members = _checked_members(path, archive)
+            tree = _check(path, json.loads(archive.read(DESCRIPTION)), format, version)
+            return _decode(tree, _ArrayReader(path, archive, members))
     except (zipfile.BadZipFile, EOFError) as error:
         raise FileError(path, f"is damaged or incomplete: {_decapitalise(error)}", REMEDY) from None
     except RecursionError:
@@ -175,3 +166,61 @@ def _decode(value: Any, array: Callable[[Any], np.ndarray]) -> Any:
     if value.keys() == {_ARRAY}:
         return array(value[_ARRAY])
     return {name[1:] if name.startswith("$") else name: _decode(item, array) for name, item in value.items()}
+
+
+def _checked_members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
+    """Return the members by name, once they are known not to be larger together than the file."""
+    members, left = {}, path.stat().st_size
+    for info in archive.infolist():
+        name = info.filename
+        if name != DESCRIPTION and not MEMBER.fullmatch(name):
+            raise FileError(path, f"holds {name[:80]!r}, which Hexmend does not know", NOT_OURS)
+        if name in members:
+            raise FileError(path, f"holds {name} twice", REMEDY)
+        if info.compress_type != zipfile.ZIP_STORED or info.file_size != info.compress_size:
+            raise FileError(path, f"{name} is compressed: expected what Hexmend wrote, which is not", REMEDY)
+        members[name], left = info, left - info.file_size
+    if left < 0:
+        raise FileError(path, f"declares {-left:,} bytes more than it has", REMEDY)
+    if DESCRIPTION not in members:
+        raise FileError(path, f"has no {DESCRIPTION}", NOT_OURS)
+    if members[DESCRIPTION].file_size > LARGEST:
+        raise FileError(path, f"{DESCRIPTION} is larger than {LARGEST >> 20} MB", REMEDY)
+    return members
+
+
+class _ArrayReader:
+    """Arrays by number, each read once; call it with the number."""
+
+    def __init__(self, path: Path, archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo]):
+        self._path, self._archive, self._members = path, archive, members
+        self._read: dict[int, np.ndarray] = {}
+
+    def __call__(self, number: Any) -> np.ndarray:
+        name = f"{ARRAYS}/{number}.npy"
+        if type(number) is not int or name not in self._members:
+            raise FileError(self._path, f"refers to {name[:80]}, which it does not contain", REMEDY)
+        if number not in self._read:
+            self._read[number] = self._array(name)
+        return self._read[number]
+
+    def _array(self, name: str) -> np.ndarray:
+        with self._archive.open(name) as member:
+            start = member.read(len(_MAGIC) + 2)
+            length = int.from_bytes(start[-2:], "little")
+            header = _HEADER.fullmatch(member.read(length)) if length <= _LONGEST_HEADER else None
+            if start[:-2] != _MAGIC or header is None:
+                raise FileError(self._path, f"{name} is not an array of numbers or text", REMEDY)
+            dtype, columns = np.dtype(header["type"].decode()), header["columns"] == b"True"
+            shape = tuple(int(length) for length in header["shape"].split(b",") if length.strip())
+            left = self._members[name].file_size - member.tell()
+            count = math.prod(shape)
+            if not dtype.itemsize or count * dtype.itemsize != left:  # NumPy would allocate strings of length 0
+                problem = f"{name} has the shape {shape} of {dtype}, and {left:,} bytes"
+                raise FileError(self._path, problem, REMEDY)
+            array = np.empty(count, dtype)
+            buffer = array.view(np.uint8) if left else array
+            for at in range(0, left, _CHUNK):
+                part = member.read(min(_CHUNK, left - at))
+                buffer[at : at + len(part)] = np.frombuffer(part, np.uint8)
+            return as_immutable(array.reshape(shape, order="F" if columns else "C"))  # several meshes may share it

@@ -15,7 +15,6 @@ from hexmend.errors import FileError, MeshError
 from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.session.archive import read_archive, write_archive
-from hexmend_app.formats.session.folder import ArchiveFolder
 from hexmend_app.formats.session.mesh_data import MeshDecoder, check_fields, mesh_to_data
 
 #: Version of the format.
@@ -60,37 +59,12 @@ def write_session(path: str | Path, meshes: Sequence[Mesh], now: int, window: An
     write_archive(path, _FORMAT, VERSION, _tree(meshes, now, window))
 
 
-class SessionFolder:
-    """Session in a folder that is updated again and again; each update writes only new arrays.
-
-    The folder is readable at any moment, even if the process is killed; see `hexmend_app.formats.session.folder`.
-
-    Parameters
-    ----------
-    path : Path
-        The folder.
-    """
-
-    def __init__(self, path: Path):
-        self._folder = ArchiveFolder(path)
-
-    def write(self, meshes: Sequence[Mesh], now: int, window: Any) -> None:
-        """Update the folder; parameters as of `write_session`.
-
-        Raises
-        ------
-        FileError
-            Where the folder is not writable; the earlier session stays.
-        """
-        self._folder.write(_FORMAT, VERSION, _tree(meshes, now, window))
-
-
 def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
     return {"meshes": [mesh_to_data(mesh) for mesh in meshes], "now": now, "window": window}
 
 
 def read_session(path: str | Path) -> SessionContent:
-    """Read a session from a file, or from the folder of a `SessionFolder`.
+    """Read a session from a file.
 
     Parameters
     ----------
@@ -120,8 +94,7 @@ def read_shown_mesh(path: Path) -> Mesh:
 @contextmanager
 def _opened(path: str | Path) -> Iterator[tuple[Any, int]]:
     """Context manager that gives a session's data and index shown; invalid meshes become a `FileError`."""
-    if not Path(path).is_dir():
-        check_readable(Path(path), "a session")
+    check_readable(Path(path), "a session")
     with reading(Path(path), "Close other programs."):
         data = read_archive(path, _FORMAT, VERSION)
     try:

@@ -19,7 +19,7 @@ _HELP = {
     PanelGroup.FIND: "Worst hexes, the selected hex, problems of the mesh and tags.",
     PanelGroup.SMOOTH: "Methods and their parameters, convergence, runs and the step of a node.",
     PanelGroup.COMPARE: "Results of several methods in a table and in views.",
-    PanelGroup.REPORT: "Script and console.",
+    PanelGroup.REPORT: "Script and console: how the mesh was made.",
 }
 
 

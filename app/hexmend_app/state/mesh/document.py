@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
+from hexmend.run.recipe import Recipe
 
 #: What the user adds to a mesh, and its iterations have too: pins, tags, marked curves, surface to slide on.
 OWN_PARTS = ("pinned", "hex_sets", "cells", "target")
@@ -44,21 +44,26 @@ class State:
 
 
 @dataclass(frozen=True, eq=False)
-class Edit:
-    """Call of a function of the library that changed a mesh.
+class Command:
+    """Call of the library that makes a mesh: an entry of the journal.
 
     Parameters
     ----------
-    before : State
-        State whose mesh is the first argument.
-    function : callable
+    name : str
+        Name of the function: "read"; "smooth"; "move", which moves the nodes of the first mesh to their positions in
+        the second; or one that changes the first mesh, such as "fix".
+    meshes : tuple of State
+        Meshes among the arguments. "smooth" runs on the first; the result has all but the positions from the last.
     values : tuple
-        The other arguments: strings, numbers, booleans, None, or arrays of integers.
+        Other arguments: strings, numbers, booleans, None, lists of them, or arrays of integers.
+    recipe : Recipe or None
+        What "smooth" runs.
     """
 
-    before: State
-    function: Callable[..., Any]
+    name: str
+    meshes: tuple[State, ...] = ()
     values: tuple[Any, ...] = ()
+    recipe: Recipe | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +105,8 @@ class DocumentData:
         State that is shown.
     files : tuple of FileMesh
         Files that were opened or saved, the last one at the end.
+    journal : tuple of (State, Command)
+        Calls that make the states.
     """
 
     path: str | None
@@ -108,6 +115,7 @@ class DocumentData:
     saved: State | None
     now: State
     files: tuple[FileMesh, ...]
+    journal: tuple[tuple[State, Command], ...]
 
     def __post_init__(self) -> None:
         if not 0 <= self.at < len(self.changes):
@@ -135,8 +143,8 @@ class Document(QObject):
         File of the mesh.
     now : State or None
         The state that is shown; None if no mesh is open.
-    edits : mapping of State to Edit
-        Edits that led to states; the script of the changes repeats them.
+    journal : mapping of State to Command
+        Calls that make the states; states of a sweep, of a case and of the console have none.
     """
 
     mesh_replaced = Signal()
@@ -151,7 +159,7 @@ class Document(QObject):
         self._at = 0
         self._saved: State | None = None
         self._files: dict[Path, Mesh] = {}
-        self.edits: WeakKeyDictionary[State, Edit] = WeakKeyDictionary()
+        self.journal: WeakKeyDictionary[State, Command] = WeakKeyDictionary()
 
     @property
     def is_open(self) -> bool:
@@ -189,6 +197,8 @@ class Document(QObject):
         self._changes = [Change("open", state)]
         self._at, self._saved = 0, state
         self._files = {} if path is None else {path: state.mesh}
+        if path is not None:
+            self.journal[state] = Command("read", values=(str(path.absolute()),))
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
@@ -210,7 +220,7 @@ class Document(QObject):
         points = states[-1].mesh.points
         return not any(earlier.mesh.points is points for earlier in states[: states.index(state)])
 
-    def commit(self, title: str, state: State, show: bool = True, edit: Edit | None = None) -> None:
+    def commit(self, title: str, state: State, show: bool = True, command: Command | None = None) -> None:
         """Record a state as a change, unless it has the positions, hexes and `OWN_PARTS` of the current change.
 
         Parameters
@@ -220,11 +230,11 @@ class Document(QObject):
         state : State
         show : bool
             False to leave the state shown as it is.
-        edit : Edit, optional
-            Call that led to the state.
+        command : Command, optional
+            Call that makes the state.
         """
-        if edit is not None:
-            self.edits[state] = edit
+        if command is not None:
+            self.journal[state] = command
         before, after = self._changes[self._at].state.mesh, state.mesh
         if any(getattr(after, part) is not getattr(before, part) for part in ("points", "hexes", *OWN_PARTS)):
             del self._changes[self._at + 1 :]
@@ -264,12 +274,18 @@ class Document(QObject):
             mesh = self.now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:  # at a time of a case, whose boundary had moved
                 mesh = mesh.moving_from(start.mesh.surface_points)
-            self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
+            state = State(mesh, start.figures, summarise(mesh, start.figures))
+            self.commit("reset", state, command=Command("move", (self.now, start)))
 
     @property
     def originals(self) -> tuple[Original, ...]:
         """Files that were opened or saved, the last one first, with the mesh in each."""
         return tuple(Original(path, mesh) for path, mesh in reversed(self._files.items()))
+
+    @property
+    def states(self) -> list[State]:
+        """The states of all changes, in their order."""
+        return [change.state for change in self._changes]
 
     @property
     def recorded(self) -> State:
@@ -297,13 +313,21 @@ class Document(QObject):
         """Return the data for a session file; a mesh is open."""
         path = None if self.path is None else str(self.path)
         files = tuple(FileMesh(str(path), mesh) for path, mesh in self._files.items())
-        return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now, files)
+        needed = [self.now, *(change.state for change in self._changes)]
+        journal: dict[State, Command] = {}
+        while needed:
+            state = needed.pop()
+            if state in self.journal and state not in journal:
+                journal[state] = self.journal[state]
+                needed += journal[state].meshes
+        return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now, files, tuple(journal.items()))
 
     def restore(self, data: DocumentData) -> None:
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
         self._files = {Path(one.path): one.mesh for one in data.files}
+        self.journal.update(data.journal)
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 

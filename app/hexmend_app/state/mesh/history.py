@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
-from hexmend_app.state.mesh.document import OWN_PARTS, State
+from hexmend_app.state.mesh.document import OWN_PARTS, Command, State
 from hexmend_app.state.mesh.history_data import HistoryData, to_data
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.settings.settings import HISTORY_MEGABYTES
@@ -23,9 +23,9 @@ LIMIT = HISTORY_MEGABYTES.default << 20
 class History:
     """History of the runs on the open mesh.
 
-    Runs add iterations from their own threads, so that none is lost. If positions exceed the memory limit, some are
-    dropped: the older, the further apart are the rest. Those of the start, the newest iteration and the result of a run
-    are always recorded.
+    Runs add iterations from their own threads, so that none is lost. If positions exceed the memory limit, some of the
+    longest run are dropped. Those of the start, the newest iteration and the result of a run are always
+    recorded.
 
     Parameters
     ----------
@@ -42,8 +42,6 @@ class History:
         self.records: list[RunRecord] = []
         self._limit = limit
         self._bytes = 0
-        self._positions: list[tuple[RunRecord, int, int]] = []  # run, iteration, increasing stamp; by run
-        self._stamp = 0
         self._lock = threading.Lock()
         self._moments: WeakKeyDictionary[State, RecordedIteration] = WeakKeyDictionary()
 
@@ -94,8 +92,6 @@ class History:
                 return
             if offsets is not None:
                 record._offsets[iteration.number] = offsets
-                self._stamp += 1
-                self._positions.insert(self._end_of(record), (record, iteration.number, self._stamp))
                 self._bytes += offsets.nbytes
                 self._thin()
             record.rows.append(row)  # last, so that the positions of every row are there
@@ -114,7 +110,6 @@ class History:
         """Remove a run."""
         with self._lock:
             self.records = [other for other in self.records if other is not record]
-            self._positions = [entry for entry in self._positions if entry[0] is not record]
             self._bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
             record._offsets.clear()
         for state, moment in list(self._moments.items()):
@@ -126,16 +121,18 @@ class History:
         for record in list(self.records):
             self.remove(record)
 
-    def to_data(self, states: Iterable[State]) -> HistoryData:
-        """Return the data for a session file, with the iterations that some states show."""
+    def note_iterations(self, states: Iterable[State]) -> None:
+        """Find the iterations that states show, for session files."""
+        for state in states:
+            self.iteration_of(state)
+
+    def to_data(self) -> HistoryData:
+        """Return the data for a session file."""
         with self._lock:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
             records = tuple(to_data(record, at, record._offsets) for record in started)
-        moments = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
-        shown = [
-            (state, at[moment.record], moment.number) for state, moment in moments if moment and moment.record in at
-        ]
+        shown = [(state, at[one.record], one.number) for state, one in self._moments.items() if one.record in at]
         return HistoryData(records, tuple(shown))
 
     def restore(self, data: HistoryData) -> None:
@@ -148,6 +145,7 @@ class History:
             record.plotted, record.settings = saved.plotted, printable(saved.settings)
             record.rows, record.result, record.end = [dict(row) for row in saved.rows], saved.result, saved.end
             record.message, record.pauses, record.advice = saved.message, dict(saved.pauses), saved.advice
+            record.recipe = saved.recipe
             self.records.append(record)
             self._moments[saved.start] = RecordedIteration(record, 0)
             if saved.end is not None:
@@ -155,8 +153,6 @@ class History:
             with self._lock:
                 for number, offsets in saved.offsets:
                     record._offsets[number] = offsets
-                    self._stamp += 1
-                    self._positions.append((record, number, self._stamp))
                     self._bytes += offsets.nbytes
         for state, run, number in data.moments:
             self._moments[state] = RecordedIteration(self.records[run], number)
@@ -178,6 +174,26 @@ class History:
                 return None
             self._moments[state] = moment  # the other state may be deleted before this one
         return self._moments[state]
+
+    def command_of(self, state: State, recorded: State) -> Command | None:
+        """Return the call that makes an iteration of a run again; None for other states.
+
+        Parameters
+        ----------
+        state : State
+            State shown.
+        recorded : State
+            State of the current change, which has the same `OWN_PARTS`.
+        """
+        moment = self.iteration_of(state)
+        if moment is None:
+            return None
+        start = moment.record.start
+        if not moment.number:
+            return None if state is start else Command("move", (recorded, start))
+        recipe = moment.record.recipe_until(moment.number)
+        like = start if _same_own_parts(state.mesh, start.mesh) else recorded
+        return None if recipe is None else Command("smooth", (start, like), recipe=recipe)
 
     def recorded_numbers(self, record: RunRecord) -> np.ndarray:
         """Return the numbers of the iterations whose positions are recorded, ascending, (k,) int."""
@@ -211,28 +227,15 @@ class History:
         used = {record.slot for record in self.records}
         return next(slot for slot in range(len(used) + 1) if slot not in used)
 
-    def _end_of(self, record: RunRecord) -> int:
-        """Return the place behind the last position of a record, so that its positions stay together."""
-        owners = (owner for owner, *_ in reversed(self._positions))
-        return len(self._positions) - next((at for at, owner in enumerate(owners) if owner is record), 0)
-
     def _thin(self) -> None:
-        """Drop the positions with the smallest gap-to-age ratio until the limit is met.
-
-        Old iterations become sparse.
-        """
+        """Drop the position between the nearest two others, of the run with the most, until the limit is met."""
         while self._bytes > self._limit:
-            numbers = np.array([number for _, number, _ in self._positions])
-            age = self._stamp + 1 - np.array([stamp for _, _, stamp in self._positions])
-            owners = np.array([id(record) for record, _, _ in self._positions])
-            begins = np.append(True, owners[1:] != owners[:-1])
-            ends = np.append(begins[1:], True)
-            before = np.where(begins, 0, np.roll(numbers, 1))
-            gap = np.where(ends, np.inf, np.roll(numbers, -1) - before)
-            if np.isinf(gap).all():
+            record = max(self.records, key=lambda one: len(one._offsets))
+            numbers = [0, *record._offsets]
+            if len(numbers) < 3:
                 break
-            record, number, _ = self._positions.pop(int((gap / age).argmin()))
-            self._bytes -= record._offsets.pop(number).nbytes
+            at = min(range(1, len(numbers) - 1), key=lambda k: numbers[k + 1] - numbers[k - 1])
+            self._bytes -= record._offsets.pop(numbers[at]).nbytes
 
 
 def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> State:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.advice import Advice
+from hexmend.run.recipe import Recipe
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import NodeOffsets, RunRecord
 
@@ -34,6 +35,7 @@ class RecordData:
     slot: int | None
     plotted: bool
     settings: str
+    recipe: Recipe | None
 
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]
@@ -90,7 +92,7 @@ class HistoryData:
 def to_data(record: RunRecord, at: Mapping[RunRecord, int], offsets: Mapping[int, NodeOffsets]) -> RecordData:
     """Return the data of a run; `at` has the numbers of the runs, with which the data refer to the parent."""
     parent = record.parent
-    same = ("name", "title", "start", "result", "end", "message", "advice", "slot", "plotted", "settings")
+    same = ("name", "title", "start", "result", "end", "message", "advice", "slot", "plotted", "settings", "recipe")
     return RecordData(
         **{name: getattr(record, name) for name in same},
         parent=(at[parent.record], parent.number) if parent and parent.record in at else None,

@@ -6,7 +6,7 @@ The times of a case, at which a solver has moved the mesh, are recorded in the s
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -67,6 +67,8 @@ class RunRecord:
         State of the result.
     outcome : Outcome or None
         Why the run ended; None until it has ended, if it failed, and for a run from a session file.
+    better : int or None
+        Number of an iteration that the method ranks higher than the result of a run that the user has stopped.
     message : str
         Outcome in sentences; "" until the run has ended.
     pauses : dict
@@ -79,10 +81,10 @@ class RunRecord:
         None for a recipe, whose stages have their own.
     rules : MotionRules
         Rules of motion of the run.
+    recipe : Recipe or None
+        What repeats the run, as far as it got; None if it failed, or its method has changed and it has not ended.
     settings : str
         Values of the run that differ from the defaults, and its rules of motion, as text.
-    changes : list of (int, Stage)
-        Iterations after which the method was switched, and the new stages.
     slot : int
         Number of its colour, from 0, which does not change when other runs are removed.
     plotted : bool
@@ -96,6 +98,7 @@ class RunRecord:
         self.result: int | None = None
         self.end: State | None = None
         self.outcome: Outcome | None = None
+        self.better: int | None = None
         self.message = ""
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None
@@ -103,7 +106,7 @@ class RunRecord:
         self.stop: StoppingCriteria | None = None
         self.rules = MotionRules()
         self.settings = ""
-        self.changes: list[tuple[int, Stage]] = []
+        self.recipe: Recipe | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
         self._offsets: dict[int, NodeOffsets] = {}  # by iteration
@@ -137,6 +140,16 @@ class RunRecord:
         """Return the numbers of the iterations whose positions are recorded, ascending, (k,) int."""
         numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
         return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
+
+    def recipe_until(self, number: int) -> Recipe | None:
+        """Return what repeats the run until an iteration and keeps that; None if several methods ran."""
+        if self.recipe is None or number == self.result:
+            return self.recipe
+        if len(self.recipe.stages) > 1:
+            return None
+        (stage,) = self.recipe.stages
+        stop = replace(stage.stop, max_iterations=number, max_seconds=0.0, keep_last=True)
+        return replace(self.recipe, stages=(Stage(stage.smoother, stop),))
 
     def compact(self, points: np.ndarray) -> NodeOffsets:
         """Return the displacements of the nodes that have moved since the start."""

@@ -4,24 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from time import monotonic
 from typing import Any
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
 from hexmend.errors import HexmendError
+from hexmend.iteration import Outcome
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
+from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.run import Run, StoppingCriteria
-from hexmend.smoothers import Smoother
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS, Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
 from hexmend_app.state.mesh.document import Document, State
-from hexmend_app.state.tasks.task import Task
+from hexmend_app.state.tasks.task import Task, drop
 
-#: Milliseconds between two updates of the progress.
-_PERIOD = 100
+#: Seconds between two reports of the progress.
+_PERIOD = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,35 +86,32 @@ class ComparisonProgress:
     seconds: float = 0.0
 
 
-class _ComparisonTask:
-    """Runs methods one after another on one mesh in a thread; their results are in `done`."""
+def _run_all(
+    state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules, task: Task
+) -> None:
+    """Run methods one after another on one mesh, and report progress and results; if one fails, its row says so."""
+    try:
+        mesh = with_more_rules(state.mesh, rules) if rules else state.mesh
+    except HexmendError as error:
+        for one in smoothers:
+            task.report(MethodResult(Row(one.name, one.values(), "failed", f"Failed: {error}"), None))
+        return
+    due = 0.0
+    for at, smoother in enumerate(smoothers):
+        progress = ComparisonProgress(smoother.name, at, len(smoothers))
 
-    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules):
-        self.task = Task("smoother comparison", self._run, yields=True)
-        self.done: list[MethodResult] = []
-        self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
-        self._inputs = (state, smoothers, stop, rules)
+        def watch(run: Run, progress: ComparisonProgress = progress) -> bool:
+            nonlocal due
+            if monotonic() > due:
+                due = monotonic() + _PERIOD
+                task.report(replace(progress, iteration=run.last.number, seconds=run.last.seconds))
+            return not task.cancelled.is_set()
 
-    def _run(self, task: Task) -> None:
-        """Run the methods in the thread; if one fails, its row says so and the others continue."""
-        state, smoothers, stop, rules = self._inputs
-        try:
-            mesh = with_more_rules(state.mesh, rules) if rules else state.mesh
-        except HexmendError as error:
-            rows = [Row(one.name, one.values(), "failed", f"Failed: {error}") for one in smoothers]
-            self.done += [MethodResult(row, None) for row in rows]
+        task.report(progress)
+        row, _ = run_one(mesh, smoother, stop, watch)
+        task.report(_result_of(row, state.mesh))
+        if task.cancelled.is_set():
             return
-        for at, smoother in enumerate(smoothers):
-            if task.cancelled.is_set():
-                break
-            self.progress = ComparisonProgress(smoother.name, at, len(smoothers))
-            row, _ = run_one(mesh, smoother, stop, self._on_iteration)
-            self.done.append(_result_of(row, state.mesh))
-
-    def _on_iteration(self, run: Run) -> bool:
-        last = run.last
-        self.progress = replace(self.progress, iteration=last.number, seconds=last.seconds)
-        return not self.task.cancelled.is_set()
 
 
 def _result_of(row: Row, initial: Mesh) -> MethodResult:
@@ -137,6 +139,8 @@ class Comparison(QObject):
         State that the methods start from; None if nothing was compared.
     results : tuple of MethodResult
         Results of the finished methods.
+    progress : ComparisonProgress or None
+        Progress of the comparison; None if none is active.
     """
 
     changed = Signal()
@@ -145,25 +149,18 @@ class Comparison(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._work: _ComparisonTask | None = None
+        self._task: Task | None = None
+        self.progress: ComparisonProgress | None = None
         self._stop, self._rules = StoppingCriteria(), MotionRules()
         self._asked = 0
         self.initial: State | None = None
         self.results: tuple[MethodResult, ...] = ()
-        self._timer = QTimer(self)
-        self._timer.setInterval(_PERIOD)
-        self._timer.timeout.connect(self._update)
         document.mesh_replaced.connect(self._clear)
 
     @property
     def busy(self) -> bool:
         """True while methods run."""
-        return self._work is not None
-
-    @property
-    def progress(self) -> ComparisonProgress | None:
-        """Progress of the comparison; None if none is active."""
-        return None if self._work is None else self._work.progress
+        return self._task is not None
 
     @property
     def stop(self) -> StoppingCriteria:
@@ -173,7 +170,7 @@ class Comparison(QObject):
     @property
     def ending(self) -> bool:
         """True if the comparison ends after the current iteration."""
-        return self._work is not None and self._work.task.cancelled.is_set()
+        return self._task is not None and self._task.cancelled.is_set()
 
     @property
     def interrupted(self) -> bool:
@@ -195,20 +192,34 @@ class Comparison(QObject):
             return
         self.initial, self.results = self._document.now, ()
         self._stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
-        self._work = _ComparisonTask(self.initial, tuple(smoothers), stop, self._rules)
-        self._work.task.start()
-        self._timer.start()
+        self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
+        work = partial(_run_all, self.initial, tuple(smoothers), stop, self._rules)
+        self._task = Task("comparison of methods", work)
+        self._task.reported.connect(self._take)
+        self._task.ended.connect(self._finish)
+        self._task.start()
         self.changed.emit()
 
     def cancel(self) -> None:
         """End the comparison after the current iteration, which is the result of its method; the rest have none."""
-        if self._work is not None:
-            self._work.task.cancel()
+        if self._task is not None:
+            self._task.cancel()
             self.progressed.emit()
 
     def of(self, method: str) -> MethodResult | None:
         """Return the result of a method; None if there is none yet."""
         return next((result for result in self.results if result.row.method == method), None)
+
+    def recipe_of(self, state: State) -> Recipe | None:
+        """Return what repeats the result that is a state; None for other states, and if the method is unknown."""
+        row = next((result.row for result in self.results if result.state is state), None)
+        if row is None or row.method not in METHODS:
+            return None
+        stop = self._stop
+        if row.outcome in (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key):
+            stop = replace(stop, max_iterations=row.iterations, max_seconds=0.0)
+        smoother = from_values(METHODS[row.method], row.parameters, owner=row.method)
+        return Recipe.of(Stage(smoother, stop), rules=self._rules)
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""
@@ -223,10 +234,8 @@ class Comparison(QObject):
 
     def close(self) -> None:
         """Cancel the comparison without further signals."""
-        self._timer.stop()
-        if self._work is not None:
-            self._work.task.drop()
-            self._work = None
+        drop(self._task)
+        self._task = self.progress = None
 
     def _clear(self) -> None:
         self.close()
@@ -234,18 +243,16 @@ class Comparison(QObject):
         self._stop, self._rules = StoppingCriteria(), MotionRules()
         self.changed.emit()
 
-    def _update(self) -> None:
-        work = self._work
-        over = work.task.over
-        done = tuple(work.done)
-        if over:
-            self._timer.stop()
-            work.task.wait()
-            self._work = None
-            if work.task.error is not None:
-                raise work.task.error
-        if over or len(done) != len(self.results):
-            self.results = done
+    def _take(self, report: MethodResult | ComparisonProgress) -> None:
+        if isinstance(report, MethodResult):
+            self.results = (*self.results, report)
             self.changed.emit()
         else:
+            self.progress = report
             self.progressed.emit()
+
+    def _finish(self) -> None:
+        task, self._task, self.progress = self._task, None, None
+        if task.error is not None:
+            raise task.error
+        self.changed.emit()

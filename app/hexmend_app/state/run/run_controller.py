@@ -16,11 +16,10 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Command, Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
-from hexmend_app.state.run.run_settings import Pace, rules_text, settings_text
-from hexmend_app.state.run.run_view import RunView
+from hexmend_app.state.run.run_settings import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
 #: Milliseconds between two checks of the mailbox.
@@ -54,17 +53,19 @@ class RunController(QObject):
         Why the last run ended; None if it failed.
     history : History
         Records of all runs.
-    pace : Pace
-        Pace at which the iterations of runs are shown.
-    view : RunView
-        Shows the run in the document.
+    shows_every : bool
+        Runs wait until each iteration is shown; otherwise the newest is shown thirty times a second.
+    following : bool
+        True if iterations are shown as they come; False while the user looks at earlier ones.
+    iterating : bool
+        True while another iteration is shown and nothing else has changed.
 
     Signals
     -------
     phase_changed
     iterated(IterationFrame)
-        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded, except at the
-        pace that shows every one.
+        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded, unless every
+        one is shown.
     hit(IterationFrame)
         The run has reached a breakpoint and pauses.
     ended(Result)
@@ -93,9 +94,10 @@ class RunController(QObject):
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
         self._result: State | None = None  # recorded at the end of the last run
-        self.view = RunView(document, history, lambda: None if self._worker is None else self._worker.last, self)
+        self.following = True
+        self.iterating = False
         self.phase = Phase.IDLE
-        self.pace = Pace.FASTEST
+        self.shows_every = False
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._update)
@@ -110,11 +112,6 @@ class RunController(QObject):
     def newest(self) -> IterationFrame | None:
         """Newest iteration of the active run; None without one."""
         return None if self._worker is None else self._worker.last
-
-    @property
-    def iterating(self) -> bool:
-        """True while another iteration is shown and nothing else has changed."""
-        return self.view.iterating
 
     @property
     def undone(self) -> bool:
@@ -149,13 +146,17 @@ class RunController(QObject):
         rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
         record = partial(self.history.add, self.record)
         self._worker = Worker(before.mesh, smoother, stop, record, rules)
-        self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
+        self.record.work, self.record.stop = smoother, stop
+        if isinstance(smoother, Recipe):
+            self.record.recipe = smoother
+        else:
+            self.record.recipe = Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
         self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
-        self._worker.pace = self.pace
-        self._worker.grant(iterations)
-        self.view.begin(self.record)
+        self._worker.shows_every = self.shows_every
+        self._worker.set_remaining(iterations)
+        self.following = True
         self._set_phase(Phase.PREPARING)
         self._worker.task.start()
         self._timer.start()
@@ -166,17 +167,31 @@ class RunController(QObject):
         if self._worker is not None:
             self._worker.metrics = self._metrics
 
-    def set_pace(self, pace: Pace) -> None:
-        """Set the pace at which the iterations of runs are shown."""
-        self.pace = pace
+    def show_every(self, on: bool) -> None:
+        """Let runs wait until each iteration is shown, or not."""
+        self.shows_every = on
         if self._worker is not None:
-            self._worker.pace = pace
+            self._worker.shows_every = on
 
-    def break_at(self, breakpoints: Breakpoints) -> None:
+    def follow(self, on: bool) -> None:
+        """Show iterations as they come, starting with the newest, or stop doing so."""
+        self.following = on
+        if on and self.newest is not None:
+            self._preview(self.newest)
+
+    def set_breakpoints(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""
         self._breakpoints = breakpoints
         if self._worker is not None:
             self._worker.breakpoints = breakpoints
+
+    def to_data(self) -> Breakpoints:
+        """Return the breakpoints for a session file."""
+        return self._breakpoints
+
+    def restore(self, data: Breakpoints) -> None:
+        """Restore the breakpoints of a session file."""
+        self.set_breakpoints(data)
 
     @property
     def breakpoints(self) -> Breakpoints:
@@ -186,26 +201,27 @@ class RunController(QObject):
     def pause(self) -> None:
         """Pause after the current iteration."""
         if self._worker is not None:
-            self._worker.grant(0)
+            self._worker.set_remaining(0)
 
     def resume(self) -> None:
         """Resume the run, and show its iterations."""
         if self._worker is not None:
-            self.view.following = True
-            self._worker.grant(math.inf)
+            self.following = True
+            self._worker.set_remaining(math.inf)
             self._update()
 
     def step(self, iterations: int = 1) -> None:
         """Run some more iterations, show them, and pause."""
         if self._worker is not None:
-            self.view.following = True
-            self._worker.grant_more(iterations)
+            self.following = True
+            self._worker.add_remaining(iterations)
             self._update()
 
     def change(self, stage: Stage) -> None:
         """Continue the current stage with another method, other values or other limits."""
         if self._worker is not None:
             self._worker.change(stage)
+            self.record.recipe = None
             change = f"{stage.smoother.name} {settings_text(stage.smoother, stage.stop)}".strip()
             self.record.settings = "; ".join(filter(None, (self.record.settings, change)))
             if isinstance(self.work, Recipe):
@@ -219,7 +235,7 @@ class RunController(QObject):
             self._worker.end()
             self._set_phase(Phase.STOPPING)
 
-    def end(self, then: Callable[[], object]) -> None:
+    def finish_then(self, then: Callable[[], object]) -> None:
         """End the run after the current iteration, record its result, then call a function.
 
         The function is called at once if no run is active; several functions are called in the order of the calls.
@@ -265,34 +281,60 @@ class RunController(QObject):
     def _show(self, frame: IterationFrame) -> None:
         if frame.hit is not None:
             self.record.pauses[frame.iteration.number] = frame.hit.sentence
-        self.view.show(frame, self.iterated.emit, alone=self.phase is Phase.RUNNING)
+        self.iterating = self.phase is Phase.RUNNING and frame.hit is None
+        self.following = self.following or frame.hit is not None
+        if self.following:
+            self._preview(frame)
+        self.iterated.emit(frame)
+        self.iterating = False
         if frame.hit is not None:
             self.hit.emit(frame)
+
+    def _preview(self, frame: IterationFrame) -> None:
+        self.history.register_state(frame.state, RecordedIteration(self.record, frame.iteration.number))
+        self._document.preview(frame.state)
 
     def _finish(self, worker: Worker) -> None:
         self._timer.stop()
         worker.task.wait()
         self._worker = None
-        error, last = worker.task.error, worker.last
-        self.outcome = self.record.outcome = worker.task.result.outcome if error is None else None
-        reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
+        error, last, record = worker.task.error, worker.last, self.record
+        record.recipe, record.better = worker.recipe, worker.better
+        self.outcome = record.outcome = worker.task.result.outcome if error is None else None
         message = worker.task.result.message if error is None else f"Failed: {error}."
-        self.history.finish(self.record, reached, None if last is None else last.state, message)
+        reached, end = self._kept(last)
+        self.history.finish(record, reached, end, message)
+        if end is not None:
+            self._document.commit(self._title, end, show=self.following, command=self._command_of(end))
         if error is not None:
-            self.view.fail(self._title, last)
             self._set_phase(Phase.IDLE)
             self.failed.emit(error)
         else:
-            self.view.finish(self._title, last)
             self._result = self._document.recorded
             if last is not None:
                 self.iterated.emit(last)
-            self.advice = self.record.advice = worker.advice
+            self.advice = record.advice = worker.advice
             self._set_phase(Phase.FINISHED)
             self.ended.emit(worker.task.result)
         callbacks, self._after_end = self._after_end, []
         for callback in callbacks:
             callback()
+
+    def _kept(self, last: IterationFrame | None) -> tuple[RecordedIteration | None, State | None]:
+        """Return the iteration that a run keeps, with its state: the one that is shown if the user has stopped it."""
+        shown = self.history.iteration_of(self._document.now)
+        if self.outcome is Outcome.STOPPED and not self.following and shown is not None and shown.record is self.record:
+            return shown, self._document.now
+        if last is None:
+            return None, None
+        number = last.iteration.number
+        return RecordedIteration(self.record, number), last.state if number else self.record.start
+
+    def _command_of(self, end: State) -> Command | None:
+        """Return the call that makes the result of the run."""
+        if end is self.record.start:
+            return None
+        return self.history.command_of(end, self._document.recorded)
 
     def _set_phase(self, phase: Phase) -> None:
         if phase is not self.phase:

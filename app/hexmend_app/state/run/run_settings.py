@@ -1,9 +1,8 @@
-"""Pace of a run, and its settings as short text: values that differ from the defaults, and rules of motion."""
+"""Settings of a run as short text: values that differ from the defaults, and rules of motion."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from enum import Enum
 
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, declared
@@ -52,14 +51,3 @@ def _changed(values: Parametrised) -> Iterator[str]:
         value = getattr(values, one.name)
         if value != one.default:
             yield f"{one.name}={value:g}" if isinstance(value, float) else f"{one.name}={value}"
-
-
-class Pace(Enum):
-    """Pace at which the iterations of a run are shown."""
-
-    #: The newest iteration, as often as it can be drawn; others are skipped.
-    FASTEST = "fastest"
-    #: Each of the first iterations for a moment at least, so that the eye can follow a short run; then the newest.
-    SLOW_START = "slow-start"
-    #: Each iteration: the run waits until it is shown.
-    EVERY = "every"

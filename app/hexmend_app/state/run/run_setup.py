@@ -111,6 +111,12 @@ class RunSetup(QObject):
         self.chosen.emit()
         self.changed.emit()
 
+    def reset(self) -> None:
+        """Set the values of all methods, the limits and the rules of motion to their defaults; the method stays."""
+        self._values.clear()
+        self.rules = MotionRules()
+        self.choose(Stage(METHODS[self.method](), StoppingCriteria()))
+
     def show_active(self, stage: Stage) -> None:
         """Choose the stage that the active run executes."""
         self.active_stage = stage

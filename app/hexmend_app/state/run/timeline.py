@@ -78,7 +78,7 @@ class Timeline(QObject):
     @property
     def live(self) -> bool:
         """True if the selected run is active and its iterations are shown as they arrive."""
-        return self._smoothing.busy and self._smoothing.view.following
+        return self._smoothing.busy and self._smoothing.following
 
     @property
     def playing(self) -> bool:
@@ -89,7 +89,7 @@ class Timeline(QObject):
         """Show an iteration of a run, or the nearest one whose node positions are recorded."""
         if self._smoothing.busy:
             newest = record is self._smoothing.record and number >= record.newest
-            self._smoothing.view.follow(newest)
+            self._smoothing.follow(newest)
             if newest:
                 return
         state = self.history.state(RecordedIteration(record, number), self._document.now.mesh)
@@ -100,7 +100,7 @@ class Timeline(QObject):
         """Show the node positions at the start of the document, whether or not an iteration has them."""
         self.pause()
         if self._smoothing.busy:
-            self._smoothing.view.follow(False)
+            self._smoothing.follow(False)
         start, now, recorded = self._document.start, self._document.now, self._document.recorded
         if recorded.mesh.points is start.mesh.points:
             state = recorded
@@ -128,7 +128,7 @@ class Timeline(QObject):
         """Show the newest iteration; if the run is active, also those that follow."""
         self.pause()
         if self._smoothing.busy and self.record is self._smoothing.record:
-            self._smoothing.view.follow(True)
+            self._smoothing.follow(True)
         elif self.record is not None:
             self.go(self.record, self.record.newest)
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
-from time import monotonic
+from dataclasses import dataclass, replace
 
 from hexmend.advice import Advice, advise
-from hexmend.iteration import Iteration, Result
+from hexmend.iteration import Iteration, Outcome, Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
@@ -19,7 +18,6 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.run.breakpoints import BreakpointHit, Breakpoints
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.tasks.task import Task
 
 
@@ -34,9 +32,6 @@ class IterationFrame:
 
 #: Seconds after which a worker that waits for its frame to be shown looks whether it still has to.
 _WAIT = 0.05
-
-#: Iterations of a run at the pace `SLOW_START` that take some seconds at least each, and these seconds.
-_SLOW_ITERATIONS, _SHOWN = 25, 0.1
 
 
 class Mailbox:
@@ -66,7 +61,7 @@ class Mailbox:
 
 
 class Worker:
-    """Runs a smoother or a recipe on one mesh in a thread, as many iterations as are granted.
+    """Runs a smoother or a recipe on one mesh in a thread, as many iterations as remain.
 
     Parameters
     ----------
@@ -86,8 +81,8 @@ class Worker:
     mailbox : Mailbox
     last : IterationFrame or None
         The newest frame.
-    changes : list of (int, Stage)
-        Iterations after which the method was switched, and the new stages.
+    recipe : Recipe or None
+        What repeats the run; None until it has ended.
     prepared : threading.Event
         Set when the method has been set up, or its set-up has failed.
     advice : Advice or None
@@ -95,8 +90,10 @@ class Worker:
     metrics : frozenset of str
         Metrics to compute for every iteration.
     breakpoints : Breakpoints
-    pace : Pace
-        Pace at which the iterations are shown; the worker waits accordingly.
+    shows_every : bool
+        The worker waits until an iteration is shown before it makes the next.
+    better : int or None
+        Number of an iteration that the method ranks higher than the last, which a stopped run keeps.
     """
 
     def __init__(
@@ -107,33 +104,34 @@ class Worker:
         record: Callable[[Iteration], object],
         rules: MotionRules | None = None,
     ):
-        self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
+        self.task = Task(f"smoother {smoother.name}", self._run)
         self.mailbox = Mailbox()
         self.last: IterationFrame | None = None
-        self.changes: list[tuple[int, Stage]] = []
+        self.recipe: Recipe | None = None
         self.prepared = threading.Event()
         self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()
         self.breakpoints = Breakpoints()
-        self.pace = Pace.FASTEST
+        self.shows_every = False
+        self.better: int | None = None
         self._inputs = (mesh, smoother, stop)
         self._rules = rules
         self._record = record
         self._gate = threading.Condition()
-        self._granted: float = 0  # remaining iterations; infinite while running
-        self._waits = False  # for a grant
+        self._remaining: float = 0  # remaining iterations; infinite while running
+        self._waits = False  # for more iterations
         self._change: Stage | None = None  # for the rest of the current stage
 
-    def grant(self, iterations: float) -> None:
+    def set_remaining(self, iterations: float) -> None:
         """Set the number of further iterations: infinity to run, 0 to pause after the current one."""
         with self._gate:
-            self._granted = iterations
+            self._remaining = iterations
             self._gate.notify_all()
 
-    def grant_more(self, iterations: int) -> None:
+    def add_remaining(self, iterations: int) -> None:
         """Add to the number of further iterations."""
         with self._gate:
-            self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
+            self._remaining = iterations if self._remaining == float("inf") else max(self._remaining, 0) + iterations
             self._gate.notify_all()
 
     def change(self, stage: Stage) -> None:
@@ -149,8 +147,9 @@ class Worker:
 
     @property
     def waiting(self) -> bool:
-        """True if the worker has used up its grant and finished its last iteration."""
-        return self._waits and self._granted <= 0
+        """True if no iterations remain and the last one is finished."""
+        with self._gate:
+            return self._waits and self._remaining <= 0
 
     def _run(self, _: Task) -> Result:
         try:
@@ -161,48 +160,71 @@ class Worker:
             self._record(run.start)
             self.prepared.set()
             while self._may_continue(run):
-                before, begun = run.last, monotonic()
+                before = run.last
                 iteration = next(run, None)
                 if iteration is not None:
                     self._record(iteration)
                     self._report(iteration, self._hit(before, iteration))
-                    if self.pace is Pace.SLOW_START and iteration.number <= _SLOW_ITERATIONS:
-                        self.task.cancelled.wait(max(0.0, _SHOWN - (monotonic() - begun)))
+            if run.outcome is None:
+                self._keep_last(run)
             run.close()
             if run.best is not run.last:
                 self._report(run.best)
             result = run.result()
             self.advice = advise(result)
+            self.recipe = _repeating(run, result, self._rules)
             return result
         finally:
             self.prepared.set()
+
+    def _keep_last(self, run: Run) -> None:
+        """Let the user's stop keep the last iteration, and note the one that the method would keep."""
+        if run.best is not run.last:
+            self.better = run.best.number
+            run.switch_method(run.stage.smoother, replace(run.stage.stop, keep_last=True))
+            run.decisions.pop()  # which is no decision about the method
 
     def _hit(self, before: Iteration, iteration: Iteration) -> BreakpointHit | None:
         """Return the breakpoint that an iteration reaches, and pause; None if it reaches none."""
         mesh, breakpoints = self._inputs[0], self.breakpoints
         hit = breakpoints.hit(before, iteration, mesh.mean_edge_length or 1.0) if breakpoints.any else None
         if hit is not None:
-            self.grant(0)
+            self.set_remaining(0)
         return hit
 
     def _report(self, iteration: Iteration, hit: BreakpointHit | None = None) -> None:
         moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
             metric_values(metric, moved, iteration.quality)
-        self.mailbox.wait_until_taken(lambda: self.pace is Pace.EVERY and not self.task.cancelled.is_set())
+        self.mailbox.wait_until_taken(lambda: self.shows_every and not self.task.cancelled.is_set())
         self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
         self.mailbox.put(self.last)
 
     def _may_continue(self, run: Run) -> bool:
         with self._gate:
             self._waits = True
-            while run.outcome is None and not self.task.cancelled.is_set() and self._granted <= 0:
+            while run.outcome is None and not self.task.cancelled.is_set() and self._remaining <= 0:
                 self._gate.wait()
             self._waits = False
-            self._granted -= 1
+            self._remaining -= 1
             change, self._change = self._change, None
             ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
-            self.changes.append((run.last.number, change))
             run.switch_method(change.smoother, change.stop)  # may take long: outside the lock, so that nobody waits
         return run.outcome is None and not ended
+
+
+def _repeating(run: Run, result: Result, rules: MotionRules | None) -> Recipe:
+    """Return the recipe that repeats a run; one that was cut short or changed ends at the iteration that was kept."""
+    work = run.smoother if isinstance(run.smoother, Recipe) else Recipe.of(run.recipe.stages[0], rules=rules)
+    if result.outcome not in (Outcome.STOPPED, Outcome.MAX_SECONDS) and len(result.stages) <= len(work.stages):
+        return work
+    left, stages = result.kept, list[Stage]()
+    begun = [one for one in result.stages if one.iterations]
+    for stage, done in zip(run.recipe.stages, begun, strict=False):
+        if left <= done.iterations:
+            stop = replace(stage.stop, max_iterations=left, max_seconds=0.0, keep_last=True)
+            return Recipe.of(*stages, replace(stage, stop=stop), rules=work.rules)
+        stages.append(stage)
+        left -= done.iterations
+    return work

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -20,12 +20,12 @@ from hexmend.quality import summarise
 from hexmend.run.memory import available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Edit, State
-
-if TYPE_CHECKING:
-    from hexmend_app.state.session.session_parts import SessionParts
-    from hexmend_app.state.tasks.mesh_change import MeshPadder, MeshRepairer, PaddingChoice
-    from hexmend_app.state.tasks.mesh_saver import MeshSaver, SaveTask
+from hexmend_app.formats.session import SUFFIX
+from hexmend_app.state.mesh.document import Command, Document, State
+from hexmend_app.state.run.run_controller import RunController
+from hexmend_app.state.tasks.mesh_change import MeshChanger, PaddingChoice, pad_mesh, repair_mesh
+from hexmend_app.state.tasks.mesh_opener import MeshOpener
+from hexmend_app.state.tasks.mesh_saver import MeshSaver, SaveTask
 
 
 class Commands(QObject):
@@ -33,10 +33,7 @@ class Commands(QObject):
 
     Parameters
     ----------
-    session : SessionParts
-    saver : MeshSaver
-    repairer : MeshRepairer
-    padder : MeshPadder
+    session : Session
 
     Signals
     -------
@@ -46,14 +43,19 @@ class Commands(QObject):
 
     memory_short = Signal(object, object)
 
-    def __init__(self, session: SessionParts, saver: MeshSaver, repairer: MeshRepairer, padder: MeshPadder):
+    def __init__(self, session: Any):  # of a type that has these commands
         super().__init__(session)
-        self._session, self._saver, self._repairer, self._padder = session, saver, repairer, padder
-        self.document, self.smoothing = session.document, session.run
+        self._session = session
+        self.document: Document = session.document
+        self.smoothing: RunController = session.run
+        self._opener: MeshOpener = session.opener
+        self._saver: MeshSaver = session.saver
+        self._repairer: MeshChanger = session.repairer
+        self._padder: MeshChanger = session.padder
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; an active run ends first. If the file cannot be read, the open mesh stays."""
-        self.smoothing.end(lambda: self._session.opener.open(path))
+        self.smoothing.finish_then(lambda: self._opener.open(path))
 
     def save_in_background(self, path: str | Path, rewrite: bool = False) -> SaveTask:
         """Save the mesh in a thread, or the session if the path has the suffix of sessions.
@@ -61,7 +63,18 @@ class Commands(QObject):
         In the format of its file, only coordinates are replaced in a copy of that file unless `rewrite`.
         `Session.saver` reports the outcome; if saving fails, an existing file is left unchanged.
         """
-        return self._saver.save(path, rewrite)
+        path, session, document = Path(path), self._session, self.document
+        session.end_previews()
+        if path.suffix.lower() == SUFFIX:
+            saving = SaveTask(path, document.now, document.recorded, session.to_data())
+        else:
+            moment = session.timeline.shown_iteration
+            if document.previews and session.editable:
+                command = session.history.command_of(document.now, document.recorded)
+                document.commit("go back" if moment is None else f"go to {moment.name}", document.now, command=command)
+            saving = SaveTask(path, document.now, document.now, None, rewrite)
+        self._saver.save(saving)
+        return saving
 
     def run(self, stage: Stage) -> None:
         """Run a method on the current mesh, unless another mesh is being read."""
@@ -79,7 +92,7 @@ class Commands(QObject):
 
         Do nothing if no mesh is open, or a mesh is being read, repaired or padded.
         """
-        changing = self._session.opener.busy or self._repairer.busy or self._padder.busy
+        changing = self._opener.busy or self._repairer.busy or self._padder.busy
         if not self.document.is_open or changing:
             return
         free = available()
@@ -100,16 +113,16 @@ class Commands(QObject):
         self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
 
     def _start_recipe(self, recipe: Recipe) -> None:
-        self._session.end_previews()
-        self.smoothing.start(recipe, None)
+        if self._begin_edit():
+            self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as shown, at any iteration; an active run ends first."""
-        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.end(lambda: self._start(stage)))
+        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.finish_then(lambda: self._start(stage)))
 
     def reset(self) -> None:
         """End the run and move the nodes back to where they were when the mesh was opened."""
-        self.smoothing.end(self._reset)
+        self.smoothing.finish_then(self._reset)
 
     def _reset(self) -> None:
         if self._begin_edit():
@@ -118,8 +131,11 @@ class Commands(QObject):
     def adopt_positions(self, title: str, state: State) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._begin_edit():
-            mesh = self.document.now.mesh.with_points(state.mesh.points)
-            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
+            now, comparison = self.document.now, self._session.comparison
+            mesh = now.mesh.with_points(state.mesh.points)
+            recipe = comparison.recipe_of(state)
+            command = None if recipe is None else Command("smooth", (comparison.initial, now), recipe=recipe)
+            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)), command=command)
 
     def replace_mesh(self, title: str, state: State) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
@@ -156,7 +172,8 @@ class Commands(QObject):
         if self._begin_edit():
             now = self.document.now
             state = replace(now, mesh=now.mesh.sliding_on(surface, check=False))
-            self.document.commit("set target surface", state, edit=Edit(now, sliding_on_file, (str(path.absolute()),)))
+            command = Command(sliding_on_file.__name__, (now,), (str(path.absolute()),))
+            self.document.commit("set target surface", state, command=command)
 
     def slide_on_boundary(self) -> None:
         """Let the boundary slide on itself, if the mesh is editable."""
@@ -176,21 +193,28 @@ class Commands(QObject):
             now = self.document.now
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
-            self.document.commit(title, State(mesh, now.figures, summary), edit=Edit(now, change, values))
+            command = Command(change.__name__, (now,), values)
+            self.document.commit(title, State(mesh, now.figures, summary), command=command)
 
     def repair(self, kinds: Sequence[str] = ()) -> bool:
         """Start repairing some kinds of problem, or all; return False if the mesh is not editable.
 
         `Session.repairer` reports the outcome.
         """
-        return self._repairer.start(kinds)
+        if not self._begin_edit():
+            return False
+        self._repairer.start("repairing", lambda before, _: repair_mesh(before, kinds))
+        return True
 
     def pad(self, choice: PaddingChoice) -> bool:
         """Start laying a layer of hexes under the boundary; return False if the mesh is not editable.
 
         `Session.padder` reports the outcome.
         """
-        return self._padder.start(choice)
+        if not self._begin_edit():
+            return False
+        self._padder.start("padding", lambda before, task: pad_mesh(before, choice, task))
+        return True
 
     def undo(self) -> None:
         """Undo the last change, if the mesh is editable."""
@@ -203,8 +227,13 @@ class Commands(QObject):
             self.document.redo()
 
     def _begin_edit(self) -> bool:
-        """End previews and return True if the mesh can be edited."""
-        if self._session.editable:
-            self._session.end_previews()
-            return True
-        return False
+        """End previews and return True if the mesh can be edited; note how a shown iteration of a run is made."""
+        if not self._session.editable:
+            return False
+        self._session.end_previews()
+        document, history = self.document, self._session.history
+        if document.now not in document.journal:
+            command = history.command_of(document.now, document.recorded)
+            if command is not None:
+                document.journal[document.now] = command
+        return True

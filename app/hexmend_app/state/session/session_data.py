@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import FileError, MeshError
+from hexmend.errors import FileError, HexmendError, MeshError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.codec.codec import Codec, TypeAdapter
-from hexmend_app.codec.conversion import DecodeError
+from hexmend_app.codec.conversion import Hooks, decode, encode
 from hexmend_app.formats.session import SUFFIX, is_session
-from hexmend_app.formats.session.session_file import SessionFolder, read_session, write_session
+from hexmend_app.formats.session.session_file import read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
@@ -28,7 +26,6 @@ from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.run.timeline import TimelineData
-from hexmend_app.state.session.state_part import check_feature_data
 from hexmend_app.state.view.side_views import SideViewsData
 from hexmend_app.state.view.view_model import ViewData
 
@@ -109,36 +106,19 @@ def write(path: Path, data: SessionData) -> None:
         write_session(temporary, *_encoded(data))
 
 
-def write_new(folder: SessionFolder, data: SessionData) -> None:
-    """Write the data of a session that its folder does not contain yet.
-
-    Raises
-    ------
-    FileError
-        If the folder cannot be written to.
-    """
-    folder.write(*_encoded(data))
-
-
 def _encoded(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
     """Return the meshes of a session, the number of the shown one, and the encoded data."""
     numbers: dict[Mesh, int] = {}
-    window = _writing_codec(numbers).encode(data, SessionData)
-    now = _number(numbers, data.document.now.mesh)
-    return tuple(numbers), now, window
 
+    def number(mesh: Mesh) -> int:
+        return numbers.setdefault(mesh, len(numbers))
 
-def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
-    """Return the codec that writes a session: meshes become numbers, in the order in which they occur."""
-    return Codec({
-        Mesh: TypeAdapter(partial(_number, numbers), _unused),
-        State: TypeAdapter(lambda state: _number(numbers, state.mesh), _unused),
-        Smoother: TypeAdapter(lambda smoother: {"method": smoother.name, "parameters": smoother.values()}, _unused),
+    window = encode(data, {
+        Mesh: number,
+        State: lambda state: number(state.mesh),
+        Smoother: lambda smoother: {"method": smoother.name, "parameters": smoother.values()},
     })  # fmt: skip
-
-
-def _number(numbers: dict[Mesh, int], mesh: Mesh) -> int:
-    return numbers.setdefault(mesh, len(numbers))
+    return tuple(numbers), number(data.document.now.mesh), window
 
 
 def read(path: Path) -> SessionData:
@@ -151,17 +131,12 @@ def read(path: Path) -> SessionData:
     """
     stored = read_session(path)
     states = _States(stored.meshes)
-    codec = Codec({
-        Mesh: TypeAdapter(_unused, lambda number: states(number).mesh),
-        State: TypeAdapter(_unused, states),
-        Smoother: TypeAdapter(_unused, _smoother),
-    })  # fmt: skip
+    hooks: Hooks = {State: states, Mesh: lambda number: states(number).mesh, Smoother: _smoother}
     try:
-        data = codec.decode(stored.window, SessionData, "the window")
+        data = decode(SessionData, stored.window, hooks=hooks)
         data.history.check()
-        check_feature_data(data.features, "the window.features")
         return data
-    except (DecodeError, MeshError, ValueError) as error:
+    except (HexmendError, ValueError) as error:
         raise FileError(path, f"is inconsistent: {error}", "Use an earlier copy, or open its mesh.") from None
 
 
@@ -175,7 +150,7 @@ class _States:
 
     def __call__(self, number: Any) -> State:
         if type(number) is not int or not 0 <= number < len(self._meshes):
-            raise DecodeError(f"there is no mesh {str(number)[:20]}")
+            raise MeshError(f"there is no mesh {str(number)[:20]}")
         if number not in self._states:
             mesh = self._meshes[number]
             key = id(mesh.points), id(mesh.hexes)
@@ -186,14 +161,5 @@ class _States:
 
 
 def _smoother(data: Any) -> Smoother:
-    if not isinstance(data, dict) or data.keys() != {"method", "parameters"}:
-        raise DecodeError("a method is not a table of its name and parameters")
-    name, parameters = str(data["method"]), data["parameters"]
-    if not isinstance(parameters, dict):
-        raise DecodeError(f"the parameters of {name} are not a table")
-    return from_values(METHODS[name], parameters, owner=name)
-
-
-def _unused(_: Any) -> None:
-    """Stand in for a direction in which a codec is not used."""
-    raise NotImplementedError
+    name = data["method"]
+    return from_values(METHODS[name], data["parameters"], owner=name)

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.codec.codec import Codec
-from hexmend_app.codec.conversion import DecodeError
-
-#: Types of the data of features' parts by name, each with its check: session files are checked before anything is
-#: restored. Functions of parts are not stored here, because they would keep closed windows alive.
-_DECLARED: dict[str, tuple[Any, Callable[[Any], object]]] = {}
+from hexmend.errors import ParameterError
+from hexmend_app.codec.conversion import decode, encode
 
 
 def _nothing(*_: object) -> None:
@@ -33,7 +29,7 @@ class StatePart:
     restore : callable
         Takes the data of a session file.
     data : type, optional
-        Declared type of the data, which `Codec` converts. Required for parts of features.
+        Declared type of the data, which `hexmend_app.codec.conversion` converts. Required for parts of features.
     check : callable, optional
         Raises `ValueError` if data of the type cannot be restored.
     close : callable, optional
@@ -49,26 +45,6 @@ class StatePart:
     check: Callable[[Any], object] = _nothing
     close: Callable[[], object] = _nothing
     changed: Any = None
-
-
-def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
-    """Check the encoded data of all parts that features have declared.
-
-    Raises
-    ------
-    DecodeError, ValueError
-        If data are not of the declared type.
-    """
-    for name in encoded.keys() & _DECLARED.keys():
-        _decode(name, encoded[name], f"{where}.{name}")
-
-
-def _decode(name: str, encoded: Any, where: str) -> Any:
-    """Return the data of a declared part, once they are checked."""
-    kind, check = _DECLARED[name]
-    data = Codec({}).decode(encoded, kind, where)
-    check(data)
-    return data
 
 
 class FeatureStates(QObject):
@@ -104,7 +80,6 @@ class FeatureStates(QObject):
         if part.name in self._parts:
             raise ValueError(f"two features declare the state {part.name!r}")
         self._parts[part.name] = part
-        _DECLARED[part.name] = part.data, part.check
         if part.changed is not None:
             part.changed.connect(self.changed)
         if part.name in self._unclaimed:
@@ -112,8 +87,7 @@ class FeatureStates(QObject):
 
     def to_data(self) -> dict[str, Any]:
         """Return the encoded data of all parts, by name."""
-        codec = Codec({})
-        declared = {name: codec.encode(part.to_data(), part.data) for name, part in self._parts.items()}
+        declared = {name: encode(part.to_data()) for name, part in self._parts.items()}
         return {**self._unclaimed, **declared}
 
     def restore(self, data: dict[str, Any]) -> None:
@@ -134,6 +108,8 @@ class FeatureStates(QObject):
 
     def _restore(self, part: StatePart, encoded: Any) -> None:
         try:
-            part.restore(_decode(part.name, encoded, part.name))
-        except (DecodeError, ValueError) as error:
+            data = decode(part.data, encoded, (part.name,))
+            part.check(data)
+            part.restore(data)
+        except (ParameterError, ValueError) as error:
             self.failed.emit(part.name, error)

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Annotated, Any, Generic, TypeVar
 
+import msgspec
+from msgspec import Meta
 from PySide6.QtCore import QByteArray, QSettings
 
 T = TypeVar("T")
-
-
-def _same(value: Any) -> Any:
-    return value
 
 
 @dataclass(frozen=True)
@@ -26,25 +22,29 @@ class Setting(Generic[T]):
     key : str
     default
         Value if none is stored, or the stored one is invalid.
-    decode : callable
-        Converts the stored value; raises ValueError or TypeError if it is invalid.
-    encode : callable
-        Converts a value to store it.
+    type
+        Type of the value, for msgspec; a value of a type that settings do not have is stored as JSON.
+    is_json : bool
     """
 
     key: str
     default: T
-    decode: Callable[[Any], T] = _same
-    encode: Callable[[T], Any] = _same
+    type: Any
+    is_json: bool = False
 
     def get(self) -> T:
         """Return the stored value."""
         settings = QSettings()
         if not settings.contains(self.key):
             return self.default
+        value = settings.value(self.key)
+        if type(value) is self.type:
+            return value
         try:
-            return self.decode(settings.value(self.key))
-        except (TypeError, ValueError):  # written by hand
+            if self.is_json:
+                return msgspec.json.decode(value, type=self.type, dec_hook=_convert)
+            return msgspec.convert(value, self.type, strict=False, dec_hook=_convert)
+        except (TypeError, ValueError, msgspec.MsgspecError):  # written by hand
             return self.default
 
     def clear(self) -> None:
@@ -53,7 +53,14 @@ class Setting(Generic[T]):
 
     def set(self, value: T) -> None:
         """Store a value."""
-        QSettings().setValue(self.key, self.encode(value))
+        QSettings().setValue(self.key, msgspec.json.encode(value, enc_hook=str).decode() if self.is_json else value)
+
+
+def _convert(kind: type, value: Any) -> Any:
+    """Convert a value to a type that msgspec does not know."""
+    if kind is Path:
+        return Path(value)
+    raise TypeError(value)
 
 
 def write_all() -> None:
@@ -67,65 +74,28 @@ def store_in(folder: str) -> None:
         QSettings.setPath(form, QSettings.Scope.UserScope, folder)
 
 
-def _bytes(value: Any) -> QByteArray:
-    if not isinstance(value, QByteArray):
-        raise TypeError(value)
-    return value
-
-
-def _map(value: Any) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise TypeError(value)
-    return value
-
-
-def _shares(value: Any) -> tuple[float, float]:
-    x, y = (float(share) for share in str(value).split())
-    if not all(0 <= share <= 1 for share in (x, y)):
-        raise ValueError(value)
-    return x, y
-
-
-def _positive(value: Any) -> int:
-    if int(value) <= 0:
-        raise ValueError(value)
-    return int(value)
-
-
-def _switch(value: Any) -> bool:
-    if str(value) not in ("true", "false"):  # as files of settings have it
-        raise ValueError(value)
-    return str(value) == "true"
-
-
-def _pace(value: Any) -> str:
-    if str(value) not in ("fastest", "slow-start", "every"):
-        raise ValueError(value)
-    return str(value)
-
-
-def _paths(value: Any) -> tuple[Path, ...]:
-    return tuple(Path(path) for path in json.loads(value))
-
+#: Numbers from 1, and shares.
+_Positive = Annotated[int, Meta(ge=1)]
+_Share = Annotated[float, Meta(ge=0, le=1)]
 
 #: Position and size of the window, and the layout of its panels.
-GEOMETRY = Setting("geometry", QByteArray(), _bytes)
-PANELS: Setting[dict[str, Any]] = Setting("panels", {}, _map)
+GEOMETRY = Setting("geometry", QByteArray(), QByteArray)
+PANELS: Setting[dict[str, Any]] = Setting("panels", {}, dict[str, Any])
 #: One of `hexmend_app.theme.theme_choice.ThemeChoice`.
 THEME = Setting("theme", "desktop", str)
 #: Recently opened files, newest first.
-RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), _paths, lambda paths: json.dumps([str(one) for one in paths]))
+RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), tuple[Path, ...], is_json=True)
 #: Folder of the last opened or saved file, in which file dialogs start; the default if there was none.
-FOLDER = Setting("folder", Path(), Path, str)
+FOLDER = Setting("folder", Path(), Path, is_json=True)
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
-HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
-ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
-#: One of `hexmend_app.state.run.run_settings.Pace`.
-RUN_PACE = Setting("run_pace", "slow-start", _pace)
+HISTORY_MEGABYTES = Setting("history_megabytes", 512, _Positive)
+ITERATIONS_PLAYED = Setting("iterations_played", 10, _Positive)
+#: Runs wait until each iteration is shown.
+EVERY_ITERATION = Setting("every_iteration", False, bool)
 #: Key figures are shown in the view.
-KEY_FIGURES = Setting("key_figures", True, _switch, lambda on: "true" if on else "false")
+KEY_FIGURES = Setting("key_figures", True, bool)
 
 
 def overlay_position(key: str, default: tuple[float, float]) -> Setting[tuple[float, float]]:
     """Return the setting of the position of an overlay over the view, as shares of the free width and height."""
-    return Setting(f"overlay/{key}", default, _shares, lambda position: " ".join(f"{share:.4f}" for share in position))
+    return Setting(f"overlay/{key}", default, tuple[_Share, _Share], is_json=True)

@@ -31,15 +31,13 @@ class LatestTask(QObject):
         Name of the computation, for its thread.
     compute : callable
         Called with the arguments of `ask` in a thread.
-    yields : bool
-        Run the thread with lower priority.
     """
 
     found = Signal()
 
-    def __init__(self, name: str, compute: Callable[..., Any], parent: QObject | None = None, *, yields: bool = False):
+    def __init__(self, name: str, compute: Callable[..., Any], parent: QObject | None = None):
         super().__init__(parent)
-        self._name, self._compute, self._yields = name, compute, yields
+        self._name, self._compute = name, compute
         self._latest: tuple[Any, ...] | None = None
         self._active: tuple[Any, ...] | None = None
         self._ended: tuple[Any, ...] | None = None  # the request of `result` and `error`
@@ -76,7 +74,7 @@ class LatestTask(QObject):
     def _start(self) -> None:
         self._active, self.error = self._latest, None
         request, compute = self._active, self._compute
-        self._task = Task(self._name, lambda _: compute(*request), yields=self._yields)
+        self._task = Task(self._name, lambda _: compute(*request))
         self._task.ended.connect(self._finish)
         self._task.start()
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.doctor import PROBLEMS, repair
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding import pad
-from hexmend_app.state.mesh.document import Edit, State
+from hexmend_app.state.mesh.document import Command, Document, State
 from hexmend_app.state.tasks.task import Task, drop
-
-if TYPE_CHECKING:
-    from hexmend_app.state.session.session_parts import SessionParts
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,22 +27,22 @@ class MeshChange:
         Title in the undo list.
     state : State or None
         The changed mesh; None if nothing was changed.
-    edit : Edit
+    command : Command
         Call of the core that makes the same change.
     """
 
     outcome: Any
     title: str
     state: State | None
-    edit: Edit
+    command: Command
 
 
-class BackgroundChange(QObject):
-    """Changes the mesh, which can be viewed but not edited meanwhile; a base class.
+class MeshChanger(QObject):
+    """Changes the mesh, which can be viewed but not edited meanwhile.
 
     Parameters
     ----------
-    session : SessionParts
+    document : Document
 
     Signals
     -------
@@ -63,57 +60,50 @@ class BackgroundChange(QObject):
     failed = Signal(object)
     cancelled = Signal()
 
-    def __init__(self, session: SessionParts):
-        super().__init__(session)
-        self._session = session
+    def __init__(self, document: Document, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
         self._before: State | None = None
         self._task: Task | None = None
-        session.document.mesh_replaced.connect(self.cancel)
+        document.mesh_replaced.connect(self.cancel)
 
     @property
     def busy(self) -> bool:
         """True while the mesh is being changed."""
         return self._task is not None
 
-    def _begin(self, name: str, change: Callable[[State, Task], MeshChange]) -> bool:
-        """Start a change of the mesh by a function of its state and the task; return False if it is not editable."""
-        session = self._session
-        if not session.editable:
-            return False
-        session.end_previews()
-        self._before = before = session.document.now
-        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
+    def start(self, name: str, change: Callable[[State, Task], MeshChange]) -> None:
+        """Start a change of the mesh, which is editable, by a function of its state and the task."""
+        self._before = before = self._document.now
+        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task))
         self._task.ended.connect(self._finish)
         self.began.emit()
         self._task.start()
-        return True
 
     def cancel(self) -> None:
         """Cancel the change; the mesh is unchanged."""
         if self._task is not None:
-            self._task.drop()
-            self._before = self._task = None
+            self.close()
             self.cancelled.emit()
 
     def close(self) -> None:
         """Cancel the change without a signal: the window closes."""
         drop(self._task)
-        self._task = None
+        self._before = self._task = None
 
     def _finish(self) -> None:
         task, self._task = self._task, None
         before, self._before = self._before, None
+        document = self._document
         if task.error is not None:
             self.failed.emit(task.error)
-            return
-        change: MeshChange = task.result
-        document = self._session.document
-        if document.now is not before:  # the user has gone to another iteration
+        elif document.now is not before:  # the user has gone to another iteration
             self.cancelled.emit()
-            return
-        if change.state is not None:
-            document.commit(change.title, change.state, edit=change.edit)
-        self.ended.emit(change.outcome)
+        else:
+            change: MeshChange = task.result
+            if change.state is not None:
+                document.commit(change.title, change.state, command=change.command)
+            self.ended.emit(change.outcome)
 
 
 def prepared_state(mesh: Mesh) -> State:
@@ -143,31 +133,18 @@ class PaddingChoice(NamedTuple):
     thickness: float | None = None
 
 
-class MeshPadder(BackgroundChange):
-    """Lays a layer of hexes under the boundary and mends the mesh; `ended` sends a `hexmend.Padding`."""
+def pad_mesh(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
+    """Lay a layer of hexes under the boundary, and mend, measure and prepare the mesh; the outcome is a `Padding`.
 
-    def start(self, choice: PaddingChoice) -> bool:
-        """Start padding the mesh; return False if it is not editable."""
-        return self._begin("padding", lambda before, task: _pad(before, choice, task))
-
-
-def _pad(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
-    """Pad, mend, measure and prepare a mesh; mending ends when the task is cancelled."""
+    Mending ends when the task is cancelled.
+    """
     padding = pad(before.mesh, *choice, progress=False, watch=lambda _: not task.cancelled.is_set())
-    return MeshChange(padding, "pad", prepared_state(padding.mesh), Edit(before, pad, tuple(choice)))
+    return MeshChange(padding, "pad", prepared_state(padding.mesh), Command("pad", (before,), tuple(choice)))
 
 
-class MeshRepairer(BackgroundChange):
-    """Repairs the problems of the mesh; `ended` sends those that were repaired, as a tuple of Finding."""
-
-    def start(self, kinds: Sequence[str] = ()) -> bool:
-        """Start repairing some kinds of problem, or all; return False if the mesh is not editable."""
-        kinds = tuple(kinds)
-        return self._begin("repairing", lambda before, _: _repair(before, kinds))
-
-
-def _repair(before: State, kinds: tuple[str, ...]) -> MeshChange:
-    """Repair, measure and prepare a mesh."""
+def repair_mesh(before: State, kinds: Sequence[str]) -> MeshChange:
+    """Repair, measure and prepare a mesh; the outcome is a tuple of the findings that were repaired."""
     mesh, repaired = repair(before.mesh, kinds)
     title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)
-    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, Edit(before, repair, (kinds,)))
+    command = Command("repair", (before,), (tuple(kinds),))
+    return MeshChange(repaired, title, prepared_state(mesh) if repaired else None, command)

@@ -55,30 +55,20 @@ def _reading(progress: FileProgress) -> LoadProgress:
     return LoadProgress(LoadStage.READING, progress.path, file=progress)
 
 
-def _read_picture(picture: MissingMesh, path: Path, task: Task) -> RestoredPicture:
-    """Read the meshes of a picture, the first from the file at `path`."""
-    opened = _read(path, task)
-    states = [opened] if isinstance(opened, State) else opened.states()
-    return restore_picture(picture, path, states, lambda other: task.report(LoadProgress(LoadStage.READING, other)))
-
-
 def _open(path: Path, picture: MissingMesh | None, task: Task) -> State | SessionData | RestoredPicture | MissingMesh:
     """Read a mesh, a session, or the meshes of a picture, and report the progress of files."""
     with watch_files(FileWatcher(task, _reading, ends=True)):
-        return _open_any(path, picture, task)
-
-
-def _open_any(
-    path: Path, picture: MissingMesh | None, task: Task
-) -> State | SessionData | RestoredPicture | MissingMesh:
-    """Read a mesh, a session, or the meshes of a picture."""
-    if picture is None and is_png(path):
-        picture = MissingMesh(path, read_metadata(path))
-        found = picture.metadata.first.candidates(path)
-        if not found:
-            return picture
-        path = found[0]
-    return _read(path, task) if picture is None else _read_picture(picture, path, task)
+        if picture is None and is_png(path):
+            picture = MissingMesh(path, read_metadata(path))
+            found = picture.metadata.first.candidates(path)
+            if not found:
+                return picture
+            path = found[0]
+        opened = _read(path, task)
+        if picture is None:
+            return opened
+        states = [opened] if isinstance(opened, State) else opened.states()
+        return restore_picture(picture, path, states, lambda other: task.report(LoadProgress(LoadStage.READING, other)))
 
 
 def _read(path: Path, task: Task) -> State | SessionData:
@@ -141,12 +131,12 @@ class MeshOpener(QObject):
         self._path: Path | None = None  # of the file that is being read
         self._task: Task | None = None
         self._next: tuple[Path, bool, MissingMesh | None] | None = None
-        self._recovers = False
+        self._recovers = self._restoring = False
 
     @property
     def busy(self) -> bool:
         """True while a mesh is being read."""
-        return self._task is not None
+        return self._task is not None or self._restoring
 
     def open(self, path: str | Path, *, recovers: bool = False, picture: MissingMesh | None = None) -> None:
         """Start reading a file; of the files requested while another is read, the last is opened next.
@@ -184,26 +174,28 @@ class MeshOpener(QObject):
 
     def _finish(self) -> None:
         task, self._task = self._task, None
+        result = task.result
         if self._next is not None:
             (path, recovers, picture), self._next = self._next, None
             self.open(path, recovers=recovers, picture=picture)
         elif task.error is not None:
             self.failed.emit(self._path, task.error)
+        elif isinstance(result, MissingMesh):
+            self.mesh_missing.emit(result)
         else:
-            result = task.result
-            if isinstance(result, MissingMesh):
-                self.mesh_missing.emit(result)
-                return
-            if isinstance(result, State):
-                self._document.replace(result, self._path)
-                self.mesh_read.emit(self._path)
-            elif isinstance(result, RestoredPicture):
-                self._path = result.path
-                self._document.replace(result.state, result.path)
-                self.mesh_read.emit(result.path)
-                self.restored.emit(result)
-            else:
-                self._task = task  # busy until it is restored: signals emitted meanwhile are no changes by the user
-                self.loaded.emit(result, None if self._recovers else self._path)
-                self._task = None
+            self._take(result)
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)
+
+    def _take(self, result: State | SessionData | RestoredPicture) -> None:
+        """Show what was read in the document."""
+        if isinstance(result, SessionData):
+            self._restoring = True  # busy until it is restored: signals emitted meanwhile are no changes by the user
+            self.loaded.emit(result, None if self._recovers else self._path)
+            self._restoring = False
+            return
+        if isinstance(result, RestoredPicture):
+            self._path = result.path
+        self._document.replace(result.state if isinstance(result, RestoredPicture) else result, self._path)
+        self.mesh_read.emit(self._path)
+        if isinstance(result, RestoredPicture):
+            self.restored.emit(result)

@@ -6,21 +6,17 @@ from collections import deque
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
 from hexmend.io.storage.file_progress import watch_files
-from hexmend_app.formats.session import SUFFIX
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData
 from hexmend_app.state.tasks.file_watcher import FileWatcher
 from hexmend_app.state.tasks.task import Task, drop
-
-if TYPE_CHECKING:
-    from hexmend_app.state.session.session_parts import SessionParts
+from hexmend_app.state.view.saved_cameras import SavedCameras
 
 
 class SaveTask:
@@ -92,7 +88,8 @@ class MeshSaver(QObject):
 
     Parameters
     ----------
-    session : SessionParts
+    document : Document
+    cameras : SavedCameras
 
     Signals
     -------
@@ -111,9 +108,9 @@ class MeshSaver(QObject):
     ended = Signal(object)
     failed = Signal(object)
 
-    def __init__(self, session: SessionParts):
-        super().__init__(session)
-        self._session = session
+    def __init__(self, document: Document, cameras: SavedCameras, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document, self._cameras = document, cameras
         self._waiting: deque[SaveTask] = deque()
         self._saving: SaveTask | None = None
         self._task: Task | None = None
@@ -128,12 +125,10 @@ class MeshSaver(QObject):
         """Path of the file that is being written; None if there is none."""
         return None if self._saving is None else self._saving.path
 
-    def save(self, path: str | Path, rewrite: bool = False) -> SaveTask:
-        """Save the mesh, with `rewrite` anew in any case, or the session if the path has the suffix of sessions."""
-        saving = self._make_save(Path(path), rewrite)
+    def save(self, saving: SaveTask) -> None:
+        """Write a file when those before it are written."""
         self._waiting.append(saving)
         self._begin()
-        return saving
 
     def close(self) -> None:
         """Drop all files that are not written yet; the caller has waited for them or decided not to."""
@@ -141,23 +136,10 @@ class MeshSaver(QObject):
         drop(self._task)
         self._saving = self._task = None
 
-    def _make_save(self, path: Path, rewrite: bool) -> SaveTask:
-        """Return the task of saving the current state, after ending a sweep in progress."""
-        session, document = self._session, self._session.document
-        session.end_previews()
-        if path.suffix.lower() == SUFFIX:
-            return SaveTask(path, document.now, document.recorded, session.to_data())
-        moment = session.timeline.shown_iteration
-        if document.previews and session.editable:
-            document.commit("go back" if moment is None else f"go to {moment.name}", document.now)
-        return SaveTask(path, document.now, document.now, None, rewrite)
-
     def _begin(self) -> None:
         if self._saving is None and self._waiting:
             self._saving = saving = self._waiting.popleft()
-            saving.originals = (
-                self._session.document.originals
-            )  # not earlier: a save before may have written one of them
+            saving.originals = self._document.originals  # not earlier: a save before may have written one of them
             self._task = Task(f"saving {saving.path.name}", partial(_write, saving))
             self._task.reported.connect(lambda progress: self.progressed.emit(saving, progress))
             self._task.ended.connect(self._finish)
@@ -175,7 +157,5 @@ class MeshSaver(QObject):
 
     def _mark_saved(self, saving: SaveTask) -> None:
         """Mark the state as saved if its mesh is still open."""
-        session = self._session
-        is_open = session.document.mark_saved(saving.path, saving.recorded)
-        if is_open and saving.data is not None:
-            session.saved_cameras.mark_saved(saving.data.cameras)
+        if self._document.mark_saved(saving.path, saving.recorded) and saving.data is not None:
+            self._cameras.mark_saved(saving.data.cameras)

@@ -52,8 +52,6 @@ class Task(QObject):
     work : callable
         Function that is called in the thread with this task. It should return soon after `cancelled` is set, as it
         cannot be ended from outside.
-    yields : bool
-        True to give the thread a lower priority than the window, for work that takes seconds.
 
     Attributes
     ----------
@@ -77,14 +75,13 @@ class Task(QObject):
     _message_posted = Signal(object)
     _end_posted = Signal()
 
-    def __init__(self, name: str, work: Callable[[Task], Any], *, yields: bool = False):
+    def __init__(self, name: str, work: Callable[[Task], Any]):
         super().__init__()
         self.name = name
         self.cancelled = threading.Event()
         self.result: Any = None
         self.error: BaseException | None = None
         self._work: Callable[[Task], Any] | None = work
-        self._yields = yields
         self._emits = True
         self._after_drop: Callable[[], object] | None = None
         self._thread = threading.Thread(target=self._run, name=name)
@@ -146,12 +143,6 @@ class Task(QObject):
 
     def _run(self) -> None:
         try:
-            if self._yields:
-                from hexmend_app.state.tasks.thread_priority import (
-                    lower_priority,  # with the kernels, which a first task loads
-                )
-
-                lower_priority()
             self.result = self._work(self)
         except BaseException as error:  # the window reports errors of any kind
             self.error = error

@@ -92,7 +92,7 @@ class TimeReader(QObject):
         if find_case(path) is None:
             return
         self._state, self._found = self._document.now, []
-        self._task = Task(f"reading the times of {path.name}", partial(_read, path, self._state), yields=True)
+        self._task = Task(f"reading the times of {path.name}", partial(_read, path, self._state))
         self._task.reported.connect(self._add)
         self._task.ended.connect(self._finish)
         self._task.start()

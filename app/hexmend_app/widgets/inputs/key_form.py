@@ -10,23 +10,19 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFormLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.codec.value_text import parse_value
-from hexmend_app.theme.palette import WORSE
-from hexmend_app.theme.spacing import on_grid
-from hexmend_app.theme.style import labelled, note, set_help, show_text
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.editors import Text, editor_for
-from hexmend_app.widgets.wording import name_in_words
+from hexmend_app.widgets.inputs.editors import Text
+from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
 
-class KeyForm(QWidget):
+class KeyForm(ParameterForm):
     """Form that edits some keys of a table, one row each; an empty text stands for the default.
 
     Parameters
@@ -35,45 +31,26 @@ class KeyForm(QWidget):
         Initial values.
     names : sequence of str
         Fields to edit.
-
-    Attributes
-    ----------
-    editors : dict of QWidget
-        By field.
-
-    Signals
-    -------
-    changed
-        The user changed a value.
     """
 
-    changed = Signal()
-
     def __init__(self, table: ConfigTable, names: Sequence[str], parent: QWidget | None = None):
-        super().__init__(parent)
         self._kind = type(table)
-        self._keys = {option.field: option for option in options_of(type(table)) if option.field in names}  # type: ignore[arg-type]
-        self.editors: dict[str, Any] = {}
-        layout = on_grid(QFormLayout(self))
-        layout.setContentsMargins(0, 0, 0, 0)
-        for name in names:
-            option = self._keys[name]
-            editor = self.editors[name] = _editor(option)
-            editor.changed.connect(self._on_changed)
-            title = tr(name_in_words(option.name)) + (f" ({tr(option.unit)})" if option.unit else "")
-            set_help(editor, title, tr(helps(self._kind)[name]))  # type: ignore[arg-type]
-            layout.addRow(labelled(title, editor), editor)
-        self._problem = note("", WORSE)
-        self._problem.hide()
-        layout.addRow(self._problem)
+        kind: Any = self._kind  # as a value, which mypy takes to be hashable
+        options = {option.field: option for option in options_of(kind)}
+        self._keys = {name: options[name] for name in names}
+        texts = helps(kind)
+        super().__init__([_declaration(self._keys[name], texts[name]) for name in names], has_buttons=False)
+        for name, editor in self.editors.items():
+            if isinstance(editor, Text):
+                default = self._keys[name].default
+                editor.setPlaceholderText(tr("automatic") if default in (None, "") else _text(default))
         self.show_table(table)
 
     def show_table(self, table: ConfigTable) -> None:
         """Show the values of a table, without a signal."""
-        for name, editor in self.editors.items():
-            value = getattr(table, name)
-            editor.set_value(_text(value) if isinstance(editor, Text) else value)
-        show_text(self._problem, "")
+        values = {name: getattr(table, name) for name in self.editors}
+        texts = {name for name, editor in self.editors.items() if isinstance(editor, Text)}
+        self.set_values({name: _text(value) if name in texts else value for name, value in values.items()})
 
     def table(self, base: ConfigTable) -> ConfigTable:
         """Return a copy of `base` with the values of the form.
@@ -90,26 +67,25 @@ class KeyForm(QWidget):
             values[name] = _read(self._keys[name], editor.value()) if isinstance(editor, Text) else editor.value()
         return replace(base, **values)
 
-    def _on_changed(self) -> None:
+    def problem_text(self) -> str:
+        """Return the problem of the values, each and together; "" if there is none."""
         try:
             self.table(self._kind())
-            show_text(self._problem, "")
+            return ""
         except ParameterError as error:
-            show_text(self._problem, str(error))
-        self.changed.emit()
+            return str(error)
 
 
-def _editor(option: Option) -> Any:
+def _declaration(option: Option, help: str) -> Parameter:
+    """Return a key as a declared parameter; a list, or a number that may be left out, is edited as text."""
     kind, name = option.kind, option.name
-    if kind is bool or kind in (int, float):
-        return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
+    if kind in (bool, int, float):
+        return Parameter(name, kind, option.default, option.low, option.high, unit=option.unit, help=help)
     if option.offered:
-        return editor_for(Parameter(name, str, option.default, None, None, None, "", "", suggestions=option.offered))
+        return Parameter(name, str, option.default, help=help, suggestions=option.offered)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
-        return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
-    editor: Any = editor_for(Parameter(name, str, "", None, None, None, "", ""))
-    editor.setPlaceholderText(tr("automatic") if option.default in (None, "") else _text(option.default))
-    return editor
+        return Parameter(name, str, option.default.value, choices=tuple(kind), help=help)
+    return Parameter(name, str, "", unit=option.unit, help=help)
 
 
 def _read(option: Option, text: str) -> Any:

@@ -6,20 +6,14 @@ import math
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import on_theme_change, set_variant, smaller, tabular
+from hexmend_app.theme.style import set_variant, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.wording import short_number
-
-#: Maximum length of a unit that is shown after the number, in letters.
-LONGEST_UNIT = 6
 
 
 class NumberBox(FocusedWheel, QAbstractSpinBox):
@@ -31,7 +25,7 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
     Parameters
     ----------
     declaration : Parameter
-        Of type int or float; its unit is shown after the number, unless it is longer than `LONGEST_UNIT`.
+        Of type int or float.
 
     Signals
     -------
@@ -55,19 +49,9 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         line.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         line.textEdited.connect(self._parse)
         line.editingFinished.connect(self._commit)
-        self._show_unit(declaration.unit if len(declaration.unit) <= LONGEST_UNIT else "")
+        line.setTextMargins(0, 0, 2, 0)
+        self.setMinimumWidth(self.fontMetrics().horizontalAdvance("0.00000") + 36)
         self.set_value(declaration.default)
-
-    def _show_unit(self, unit: str) -> None:
-        line = self.lineEdit()
-        suffix = QLabel(unit, line)
-        suffix.setFont(smaller(suffix.font()))
-        suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        on_theme_change(suffix, lambda: _colour_unit(suffix))
-        fill(QHBoxLayout(line), None, suffix, margins=(0, 0, 4, 0))
-        width = suffix.sizeHint().width() + 6 if unit else 2
-        line.setTextMargins(0, 0, width, 0)
-        self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
     def value(self) -> Any:
         """Return the last valid value: a number, a declared word or a percentage."""
@@ -125,48 +109,26 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
         self.lineEdit().selectAll()
 
     def _stepped(self, value: float | str, sign: int) -> float | str:
-        """Return the next value up (sign 1) or down (-1)."""
-        low = -math.inf if self._declaration.low is None else self._declaration.low
-        high = math.inf if self._declaration.high is None else self._declaration.high
-        if isinstance(value, str):
-            return self._next_to_word(value, sign)
-        if sign > 0 and value >= high and self._declaration.no_limit:
-            return self._declaration.no_limit
-        if sign < 0 and value <= low and self._declaration.automatic:
-            return self._declaration.automatic
-        if self._declaration.type is int:
-            return int(min(max(value + sign, low), high))
-        default = self._declaration.default
-        magnitude = abs(value) or (0.0 if isinstance(default, str) else abs(default)) or 0.1
-        exponent = math.floor(math.log10(magnitude) + 1e-9)
-        if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
-            exponent -= 1  # the value below 1 is 0.9, not 0
-        stepped = round(value + sign * 10.0**exponent, 12 - exponent)
-        return min(max(stepped, low), high)
-
-    def _next_to_word(self, value: str, sign: int) -> float | str:
-        """Return the next value up or down from a word or percentage: auto is below all numbers, no limit above."""
-        declaration = self._declaration
-        if value == declaration.automatic:
-            return declaration.low if sign > 0 and declaration.low is not None else value
-        if value == declaration.no_limit:
-            return value if sign > 0 else math.inf if declaration.high is None else declaration.high
-        number = float(value[:-1])
-        exponent = math.floor(math.log10(number or 0.1) + 1e-9)
-        return f"{min(max(round(number + sign * 10.0**exponent, 12 - exponent), 0.0), 100.0):.12g}%"
+        """Return the next value up (sign 1) or down (-1); words are beyond the bounds."""
+        declared = self._declaration
+        end, word = (declared.high, declared.no_limit) if sign > 0 else (declared.low, declared.automatic)
+        if value in (declared.automatic, declared.no_limit):
+            bound = declared.low if sign > 0 else declared.high
+            return value if value == word or bound is None else bound
+        if isinstance(value, str):  # a percentage
+            return f"{min(max(_next(float(value[:-1]), sign), 0.0), 100.0):.12g}%"
+        if end is not None and value * sign >= end * sign:
+            return word or value
+        default = 0.0 if isinstance(declared.default, str) else declared.default
+        stepped = value + sign if declared.type is int else _next(value, sign, default)
+        return stepped if end is None else min(stepped * sign, end * sign) * sign
 
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
         """Return the enabled arrows."""
         flags = QAbstractSpinBox.StepEnabledFlag.StepNone
-        value, declaration = self._value, self._declaration
-        if isinstance(value, str):
-            up, down = value != declaration.no_limit, value != declaration.automatic
-        else:
-            up = declaration.high is None or value < declaration.high or bool(declaration.no_limit)
-            down = declaration.low is None or value > declaration.low or bool(declaration.automatic)
-        if up:
+        if self._stepped(self._value, 1) != self._value:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
-        if down:
+        if self._stepped(self._value, -1) != self._value:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
 
@@ -182,9 +144,9 @@ class NumberBox(FocusedWheel, QAbstractSpinBox):
             self.set_value(self._value)
 
 
-def _colour_unit(label: QLabel) -> None:
-    """Set the colour of a unit, except that of disabled ones."""
-    palette = QPalette()
-    for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
-        palette.setColor(group, QPalette.ColorRole.WindowText, QColor(str(MUTED)))
-    label.setPalette(palette)
+def _next(value: float, sign: int, default: float = 0.0) -> float:
+    """Return a number one more (sign 1) or less (-1) in its leading digit, for 0 in that of a default."""
+    exponent = math.floor(math.log10(abs(value) or abs(default) or 0.1) + 1e-9)
+    if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
+        exponent -= 1  # the value below 1 is 0.9, not 0
+    return round(value + sign * 10.0**exponent, 12 - exponent)

@@ -44,7 +44,7 @@ def test_edges_between_two_selected_nodes_are_marked_and_shown_among_the_kinds_o
     assert len(marked(window)) > 4
     assert set(ends) <= set(marked(window).ravel().tolist())
     assert window.session.view.look.structure.is_on("kinds")
-    assert re.search(rf"with_curve\(\w+, \({ends[0]}, ", window.features["script"].text)
+    assert re.search(rf"with_curve\(\w+, \({ends[0]}, ", window.features["reproduce"].text)
     nodes, counts = np.unique(marked(window), return_counts=True)
     classifier = window.session.boundary_classifier
 

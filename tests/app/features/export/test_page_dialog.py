@@ -94,7 +94,7 @@ def test_a_size_is_chosen_or_typed_in_millimetres_or_pixels(dialog):
 def test_invalid_values_are_reported_and_not_saved(dialog, tmp_path):
     write(dialog, tmp_path / "p.png")
     type_into(dialog, "ticks", "0, half")
-    assert "'0, half' is not a list" in said(dialog)[0]
+    assert "'0, half' is not a whole number or a list" in said(dialog)[0]
     save(dialog)
     assert dialog.isVisible()
     type_into(dialog, "ticks", "0, 0.5")

@@ -263,3 +263,28 @@ def test_hexes_left_inverted_have_the_numbers_of_the_file_too(panel):
     panel.show_advice("Why Laplacian stopped", advice, np.arange(125) + 501)
     listed = ", ".join(str(number + 501) for number in advice.unlocked[:24])
     assert any("Inverted (not locked): " in text and f" (in the file {listed})" in text for text in texts(panel))
+
+
+def test_a_stopped_run_keeps_what_is_shown_and_offers_the_better_iteration(window, qtbot, tmp_path):
+    open_mesh(qtbot, window, tmp_path / "bridge.vtu", gallery.make("bridge-sharp", size=864))
+    session = window.session
+    session.run.start(METHODS["laplacian"](), StoppingCriteria(tolerance=0), iterations=12)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    with qtbot.waitSignal(session.run.ended):
+        session.run.stop()
+    record = session.run.record
+    assert session.timeline.shown_iteration.number == record.result == 12
+    press(button(window.messages, f"Go to {record.better}"))
+    assert session.timeline.shown_iteration.number == record.better < 12
+
+
+def test_a_branch_begins_at_the_iteration_shown(window, qtbot, tmp_path):
+    open_mesh(qtbot, window, tmp_path / "bridge.vtu", gallery.make("bridge-sharp", size=864))
+    session = window.session
+    session.run.start(METHODS["laplacian"](), StoppingCriteria(tolerance=0), iterations=12)
+    qtbot.waitUntil(phase(window, Phase.PAUSED))
+    shown = session.document.now.mesh.points
+    with qtbot.waitSignal(session.run.ended):
+        session.commands.branch(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=1)))
+    qtbot.waitUntil(phase(window, Phase.FINISHED))
+    np.testing.assert_array_equal(session.run.record.start.mesh.points, shown)

@@ -73,7 +73,7 @@ def test_a_restored_session_can_be_continued(window, qtbot, path):
     session.timeline.choose(first)
     assert (session.timeline.shown_iteration.record, session.timeline.shown_iteration.number) == (first, first.result)
     session.view.change(show={"peel": 0})
-    session.run.break_at(Breakpoints())
+    session.run.set_breakpoints(Breakpoints())
     smooth(qtbot, session)
     assert [record.name for record in session.history.records][-1] == "Laplacian (2)"
     assert session.history.records[-1].parent.record is first

@@ -20,7 +20,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.state.session import commands, session_data
 from hexmend_app.state.settings import settings
@@ -140,17 +139,10 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         assert window.session.run.phase is Phase.PAUSED
 
 
-# The pace at which iterations are shown is chosen in a menu and stored.
-
-
-def test_a_pace_is_chosen_in_the_menu_and_stored(window):
-    pace = Pace.EVERY
-    action = window.action(f"pace_{pace.value}")
-    action.trigger()
-    window.refresh()
-    assert window.session.run.pace is pace
-    assert [one for one in Pace if window.action(f"pace_{one.value}").isChecked()] == [pace]
-    assert Pace(settings.RUN_PACE.get()) is pace
+def test_every_iteration_is_chosen_in_the_menu_and_stored(window):
+    window.action("every_iteration").trigger()
+    assert window.session.run.shows_every
+    assert settings.EVERY_ITERATION.get()
 
 
 # Shortage of memory: the window asks before a run, and nothing changes if the user declines.
@@ -487,15 +479,15 @@ def test_settings_changed_while_paused_change_the_run(host, qtbot):
         feature.step()
         qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED)
     record = session.run.record
-    assert [stage for _, stage in record.changes] == []
-    feature.panel.stage.parameters.editor("scaling").stepUp()
+    assert len(record.recipe.stages) == 1
+    feature.panel.stage.parameters.editors["scaling"].stepUp()
     feature.step()
     qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED and record.newest == 3)
-    ((number, stage),) = record.changes
-    assert number == 2
-    assert stage.smoother.scaling > 0.25
     with qtbot.waitSignal(session.run.ended):
         session.run.stop()
+    before, after = record.recipe.stages
+    assert before.stop.max_iterations == 2
+    assert after.smoother.scaling > 0.25
 
 
 def test_run_shows_an_invalid_value(host, shown):
@@ -504,7 +496,7 @@ def test_run_shows_an_invalid_value(host, shown):
     panel = shown(feature.panel, 360, 700)
     parameters = panel.findChildren(Section)[0]
     parameters.expand()
-    editor = panel.stage.parameters.editor("scaling")
+    editor = panel.stage.parameters.editors["scaling"]
     editor.lineEdit().setFocus()
     type_text(editor.lineEdit(), "-7")
     assert setup.stage is None
@@ -519,7 +511,7 @@ def test_run_shows_an_invalid_value(host, shown):
 
 
 def test_no_time_limit_is_called_none(panel, setup):
-    seconds = panel.stage.stop.editor("max_seconds")
+    seconds = panel.stage.stop.editors["max_seconds"]
     assert seconds.lineEdit().text() == "none"
     type_text(seconds.lineEdit(), "20")
     assert setup.stage.stop.max_seconds == 20

@@ -39,7 +39,7 @@ def test_runs_slide_on_a_chosen_surface(window, qtbot, stl):
     mesh = window.session.document.now.mesh
     assert target(window).distances(mesh.points[mesh.topology.boundary]).max() < 1e-6
     assert "from fine.stl" in window.session.timeline.record.advice.surface
-    assert re.search(rf"sliding_on_file\(\w+, {re.escape(repr(str(stl)))}\)", window.features["script"].text)
+    assert re.search(rf"sliding_on_file\(\w+, {re.escape(repr(str(stl)))}\)", window.features["reproduce"].text)
 
 
 @pytest.mark.slow

@@ -11,11 +11,9 @@ from hexmend import Iteration, Laplacian, Smoother, Step, StoppingCriteria, gall
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.mesh.history import History
-from hexmend_app.state.run import worker
+from hexmend_app.state.mesh.history import History, RecordedIteration
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase, RunController
-from hexmend_app.state.run.run_settings import Pace
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
 from tests.app.driving import heard_from, turn
 from tests.core.grids import grid, scrambled
@@ -59,38 +57,27 @@ def test_a_run_has_the_result_of_the_command_line(document, smoothing, qtbot):
     assert document.now is document.start
 
 
-@pytest.mark.parametrize("pace", list(Pace))
-def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, qtbot, pace):
+@pytest.mark.parametrize("every", [True, False])
+def test_every_iteration_is_shown_where_that_is_asked_for(document, smoothing, qtbot, every):
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
-    smoothing.set_pace(pace)
+    smoothing.show_every(every)
     with qtbot.waitSignal(smoothing.ended) as ended:
         smoothing.start(LocalSteepestDescent(), StoppingCriteria(max_iterations=12, tolerance=0))
     numbers = sorted(set(seen))
-    if pace is Pace.EVERY:
+    if every:
         assert numbers == list(range(1, 13))
     assert ended.args[0].iterations == 12
 
 
 def test_a_run_that_waits_to_be_shown_can_be_closed_and_let_go_on(document, smoothing, qtbot):
-    smoothing.set_pace(Pace.EVERY)
+    smoothing.show_every(True)
     smoothing.start(LocalSteepestDescent(), SLOW)
     qtbot.waitUntil(lambda: smoothing.record.newest > 2)
-    smoothing.set_pace(Pace.FASTEST)
+    smoothing.show_every(False)
     before = smoothing.record.newest
     qtbot.waitUntil(lambda: smoothing.record.newest > before + 5)
-    smoothing.set_pace(Pace.EVERY)
-    smoothing.close()
-    wait_for_dropped()
-    assert not running()
-
-
-def test_a_slow_start_shows_an_iteration_for_a_moment_and_can_be_closed(document, smoothing, qtbot, monkeypatch):
-    monkeypatch.setattr(worker, "_SHOWN", 1e4)  # seconds
-    smoothing.set_pace(Pace.SLOW_START)
-    with qtbot.waitSignal(smoothing.iterated):
-        smoothing.start(LocalSteepestDescent(), SLOW)
-    assert smoothing.record.newest == 1
+    smoothing.show_every(True)
     smoothing.close()
     wait_for_dropped()
     assert not running()
@@ -174,6 +161,46 @@ def test_stop_takes_effect_within_one_iteration(document, smoothing, qtbot):
     assert smoothing.record.newest <= newest + 1
 
 
+@pytest.fixture
+def overshooting(document, smoothing, qtbot):
+    """Pause a run whose best iteration is not its last."""
+    document.replace(State.of(MESH), Path("bridge.vtu"))
+    smoothing.start(Laplacian(), SLOW, iterations=12)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
+    return smoothing
+
+
+def test_stop_keeps_the_iteration_that_is_shown(document, overshooting, qtbot):
+    shown = document.now
+    with qtbot.waitSignal(overshooting.ended):
+        overshooting.stop()
+    record = overshooting.record
+    assert (record.result, document.recorded) == (12, document.now)
+    np.testing.assert_array_equal(document.now.mesh.points, shown.mesh.points)
+    assert record.better is not None
+    assert record.better < 12
+
+
+def test_stop_keeps_an_earlier_iteration_that_is_shown(document, overshooting, qtbot):
+    record = overshooting.record
+    overshooting.follow(False)
+    state = overshooting.history.state(RecordedIteration(record, 4), document.now.mesh)
+    document.preview(state)
+    with qtbot.waitSignal(overshooting.ended):
+        overshooting.stop()
+    assert record.result == 4
+    assert document.recorded is document.now is state
+
+
+def test_a_run_that_keeps_the_initial_mesh_changes_nothing(document, smoothing, qtbot):
+    best = smooth(MESH, "laplacian", StoppingCriteria(max_iterations=12, tolerance=0)).mesh
+    document.replace(State.of(best), Path("a.vtu"))
+    with qtbot.waitSignal(smoothing.ended):
+        smoothing.start(Laplacian(), StoppingCriteria(max_iterations=12, tolerance=0))
+    assert smoothing.record.result == 0
+    assert not document.modified
+
+
 # What a run pauses at.
 
 
@@ -249,7 +276,7 @@ def session(hosted):
 
 def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtbot):
     smoothing = session.run
-    smoothing.break_at(Breakpoints(inverts=True))
+    smoothing.set_breakpoints(Breakpoints(inverts=True))
     pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
     with qtbot.waitSignal(smoothing.hit) as hit:
         smoothing.start(Laplacian(), StoppingCriteria(max_iterations=15, tolerance=0))
@@ -261,7 +288,7 @@ def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtb
             smoothing.resume()
         assert hit.args[0].iteration.number == number
     assert list(smoothing.record.pauses) == pauses[:3]
-    smoothing.break_at(Breakpoints())
+    smoothing.set_breakpoints(Breakpoints())
     with qtbot.waitSignal(smoothing.ended):
         smoothing.resume()
     assert smoothing.record.newest == 15
@@ -273,4 +300,4 @@ def test_breakpoints_can_be_set_during_a_run(session, qtbot):
     qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])
     with qtbot.waitSignal(session.run.hit):
-        session.run.break_at(Breakpoints(hex=0, change=-1.0, node=node))
+        session.run.set_breakpoints(Breakpoints(hex=0, change=-1.0, node=node))

@@ -40,7 +40,7 @@ def test_data_of_another_type_are_reported(path, place, damage):
         part = part[key]
     part[place[-1]] = damage
     write_archive(path, "Hexmend session", VERSION, content)
-    with pytest.raises(FileError, match="inconsistent: the window"):
+    with pytest.raises(FileError, match=rf"inconsistent: \[{place[0]}\]|inconsistent: {place[0]} "):
         session_data.read(path)
 
 

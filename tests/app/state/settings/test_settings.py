@@ -21,7 +21,7 @@ OTHERS = {
     "FOLDER": Path("/somewhere"),
     "HISTORY_MEGABYTES": 128,
     "ITERATIONS_PLAYED": 30,
-    "RUN_PACE": "every",
+    "EVERY_ITERATION": True,
     "KEY_FIGURES": False,
 }
 

@@ -1,16 +1,12 @@
 """Background tasks: signals, cancelling, dropping, and threads that stay running."""
 
 import gc
-import os
-import sys
 import threading
 import weakref
 
 import pytest
 
-from hexmend.kernels import set_threads, threads
 from hexmend_app.state.tasks.task import Task, running
-from hexmend_app.state.tasks.thread_priority import lower_priority
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 
 
@@ -101,43 +97,6 @@ def test_a_task_without_references_lives_until_it_is_over(qtbot, gate):
     qtbot.waitUntil(lambda: signals == ["end"])
     gc.collect()
     assert known() is None
-
-
-@pytest.mark.skipif(not hasattr(os, "getpriority"), reason="the system has no process priorities")
-@pytest.mark.parametrize("yields", [False, True])
-def test_a_task_that_yields_has_a_lower_priority(qtbot, yields):
-    own = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
-    task = Task("smoother", lambda task: os.getpriority(os.PRIO_PROCESS, threading.get_native_id()), yields=yields)
-    with qtbot.waitSignal(task.ended):
-        task.start()
-    assert (task.result > own) == (yields and own < 19)  # the lowest
-    assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == own
-
-
-# Threads that compute have a lower priority than the window.
-
-
-@pytest.fixture
-def priorities(monkeypatch):
-    """Record the calls of `os.setpriority` instead of making them."""
-    calls = []
-    monkeypatch.setattr(os, "setpriority", lambda *values: calls.append(values), raising=False)
-    before = threads()
-    yield calls
-    set_threads(before)
-
-
-def test_a_thread_takes_a_lower_priority_on_linux(priorities, monkeypatch):
-    monkeypatch.setattr(sys, "platform", "linux")
-    lower_priority()
-    assert len(priorities) == 1
-
-
-@pytest.mark.parametrize("platform", ["darwin", "win32", "freebsd14"])
-def test_a_thread_keeps_its_priority_where_its_number_is_not_that_of_a_process(priorities, monkeypatch, platform):
-    monkeypatch.setattr(sys, "platform", platform)
-    lower_priority()
-    assert priorities == []
 
 
 # Cyclic garbage is collected in the thread of the window only.

@@ -27,7 +27,7 @@ def dialog(qtbot, tmp_path):
 
 
 def test_edited_values_are_in_the_chosen_style(dialog):
-    dialog.form.editor("width").set_value(85.0)
+    dialog.form.editors["width"].set_value(85.0)
     dialog.title.setText("")
     dialog.names["at the start"].setText("as given")
     assert dialog.chosen() == ChartStyle(width=85.0, title="", names={"at the start": "as given"})
@@ -41,7 +41,7 @@ def test_edited_values_are_in_the_chosen_style(dialog):
 def test_a_wrong_file_name_or_size_is_a_problem(dialog, file, height, problem):
     dialog.target.line.setText(file)
     if height is not None:
-        dialog.form.editor("height").set_value(height)
+        dialog.form.editors["height"].set_value(height)
     dialog.accept()
     assert dialog.isVisible()
     assert any(problem in text for text in texts(dialog))

@@ -1,17 +1,17 @@
-"""Script of the changes of the mesh: shown, copied and saved."""
+"""The script of the open mesh and a Python console, in one panel."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton, QSplitter, QVBoxLayout, QWidget
 
 from hexmend.report.documents import write_text
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
-from hexmend_app.features.script.trace import Trace
+from hexmend_app.features.reproduce.console import ConsolePanel
+from hexmend_app.features.reproduce.script import script_of
 from hexmend_app.picture import Page, Scene
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.spacing import fill
@@ -20,20 +20,30 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_script
 
 
-class FeatureScript(Feature):
-    """Shows the changes of the mesh as a Python script."""
+class FeatureReproduce(Feature):
+    """Shows what made the mesh as a Python script, copies and saves it, and runs Python commands."""
 
     order = 58
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self.panel = ScriptPanel()
-        self.panel.copy_requested.connect(self.copy)
-        self.panel.save_requested.connect(self.ask)
+        self.panel = ReproducePanel(ConsolePanel(self.session))
+        self.panel.copy_button.clicked.connect(self.copy)
+        self.panel.save_button.clicked.connect(self.ask)
 
     def actions(self) -> Sequence[Action]:
-        """Return the action that saves the script."""
+        """Return the actions that open the panel and save the script."""
         return (
+            Action(
+                id="reproduce",
+                text=tr("Python conso&le"),
+                menu="Edit",
+                keys="Ctrl+`",
+                icon="console",
+                help=tr("Open the Python script of the mesh, and a console that uses and changes the mesh."),
+                handle=self.show,
+                needs_mesh=False,
+            ),
             Action(
                 id="script",
                 text=tr("Save scr&ipt…"),
@@ -46,16 +56,16 @@ class FeatureScript(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """Return the script panel."""
+        """Return the panel."""
         return (
             Panel(
-                id="script",
-                title=tr("Script"),
+                id="reproduce",
+                title=tr("Reproduce"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 group=PanelGroup.REPORT,
                 order=70,
-                help=tr("The changes of the mesh as a Python script."),
+                help=tr("The changes of the mesh as a Python script, and a Python console."),
             ),
         )
 
@@ -64,10 +74,15 @@ class FeatureScript(Feature):
         if self.panel.isVisible() and self.session.run.phase is not Phase.RUNNING:
             self.panel.show_text(self.text)
 
+    def show(self) -> None:
+        """Open the panel and focus the line of the console."""
+        self.host.show_panel("reproduce")
+        self.panel.console.line.setFocus()
+
     @property
     def text(self) -> str:
         """The script, with the scene of the view at its end."""
-        return Trace(self.session).text(self._scene())
+        return script_of(self.session, self._scene())
 
     def _scene(self) -> Scene | None:
         """Return the scene of the view; None before the first picture."""
@@ -95,39 +110,34 @@ class FeatureScript(Feature):
             tr("Script saved to {path}", path=path),
         )
 
+    def close(self) -> None:
+        """Drop the command that runs."""
+        self.panel.console.close_task()
 
-class ScriptPanel(QWidget):
-    """Panel that shows the script.
 
-    Signals
-    -------
-    copy_requested
-    save_requested
-    """
+class ReproducePanel(QWidget):
+    """The script with its buttons, and the console beside it."""
 
-    copy_requested = Signal()
-    save_requested = Signal()
-
-    def __init__(self, parent: QWidget | None = None):
+    def __init__(self, console: ConsolePanel, parent: QWidget | None = None):
         super().__init__(parent)
+        self.console = console
         self._text = QPlainTextEdit(readOnly=True)
-        self._text.setUndoRedoEnabled(False)
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName(tr("Script"))
-        copy = QPushButton(icon("content-copy"), tr("Copy"))
-        set_help(copy, tr("Copy the script"), tr("Copy the whole script to the clipboard."))
-        copy.clicked.connect(self.copy_requested)
-        save = QPushButton(icon("content-save-outline"), tr("Save as…"))
-        set_help(save, tr("Save the script"), tr("Save the script as a Python file: python FILE repeats the changes."))
-        save.clicked.connect(self.save_requested)
-        head = fill(
-            QHBoxLayout(),
-            (note(tr("Python script that makes the mesh shown again; the view is at its end.")), 1),
-            copy,
-            save,
-        )
-        fill(QVBoxLayout(self), head, (self._text, 1), margins=(8, 8, 8, 8))
+        self.copy_button = QPushButton(icon("content-copy"), tr("Copy"))
+        set_help(self.copy_button, tr("Copy the script"), tr("Copy the whole script to the clipboard."))
+        self.save_button = QPushButton(icon("content-save-outline"), tr("Save as…"))
+        help = tr("Save the script as a Python file: python FILE repeats the changes.")
+        set_help(self.save_button, tr("Save the script"), help)
+        purpose = note(tr("Python script that makes the mesh shown again; the view is at its end."))
+        script = QWidget()
+        head = fill(QHBoxLayout(), (purpose, 1), self.copy_button, self.save_button)
+        fill(QVBoxLayout(script), head, (self._text, 1), margins=(0, 0, 0, 0))
+        both = QSplitter(childrenCollapsible=False)
+        both.addWidget(script)
+        both.addWidget(console)
+        fill(QVBoxLayout(self), both, margins=(8, 8, 8, 8))
 
     def show_text(self, text: str) -> None:
         """Show a script, where the user has scrolled to; a selection stays while the script does."""
