@@ -13,8 +13,8 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.distribution import Axis, Distribution
 from hexmend_app.scene.colour.value_range import within
-from hexmend_app.scene.geometry.filters import Filters
-from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.cutting.filters import Filters
+from hexmend_app.scene.geometry.frame import Frame
 from tests.core.grids import grid, scrambled
 
 MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "inverted": scrambled(grid(4), 0.9), "flat": None}
