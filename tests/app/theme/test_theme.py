@@ -14,7 +14,7 @@ from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
-from hexmend_app.features.quality.statistics import StatisticsTable
+from hexmend_app.features.quality.quality_bar import QualityBar
 from hexmend_app.picture import Page, Scene, Show
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -66,11 +66,11 @@ def histogram():
     return widget
 
 
-def statistics():
-    table = StatisticsTable()
-    start = summarise(MESH, FIGURES)
-    table.set_summaries(start, summarise(grid(5), measure(grid(5).points, grid(5).hexes)))
-    return table
+def quality():
+    bar = QualityBar()
+    bar.set_summaries(summarise(MESH, FIGURES), summarise(grid(5), measure(grid(5).points, grid(5).hexes)))
+    bar.all_button.click()
+    return bar
 
 
 def worst():
@@ -101,7 +101,7 @@ def convergence():
 
 BUILT = {
     "histogram": histogram,
-    "statistics": statistics,
+    "quality": quality,
     "worst": worst,
     "hex": one_element,
     **{kind: partial(message, kind) for kind in ("error", "warning", "info")},

@@ -111,6 +111,7 @@ class ComparePanel(QWidget):
         """
         self.model.fill(entries, full, busy)
         self._table.resizeColumnsToContents()
+        self._table.setColumnWidth(METHOD, self._table.columnWidth(METHOD) + 8)  # Qt leaves too little for the boxes
         self._enable()
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:

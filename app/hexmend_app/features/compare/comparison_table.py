@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from math import floor, log10
 from typing import Any
 
 from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES
-from hexmend.quantity import (
-    Quantity,
-    format_microseconds,
-    format_milliseconds,
-    format_objective,
-    format_significant,
-)
+from hexmend.quantity import Quantity
 from hexmend.report.comparison import KEPT_START, LINES, label
 from hexmend.smoothers import METHODS
 from hexmend_app.theme.palette import BETTER, MUTED, WORSE
@@ -48,15 +41,6 @@ _HELP = (
 )
 _Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
-
-
-#: Factor of the values, and significant digits of the smallest one in a column, of formats with varying decimals.
-_SCALES: dict[Callable[[Any], str], tuple[float, int]] = {
-    format_significant: (1.0, 2),
-    format_objective: (1.0, 7),
-    format_milliseconds: (1e3, 2),
-    format_microseconds: (1e6, 2),
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +98,12 @@ def title_of(name: str) -> str:
 
 
 def column_texts(entries: Sequence[ComparisonRow], quantity: Quantity) -> dict[str, str]:
-    """Return the texts of a column by the names of the rows, with one number of decimals; "" without a result."""
-    with_result = [entry for entry in entries if entry.record]
-    texts = map(with_minus, format_column(quantity, [entry.record for entry in with_result]))
-    named = {entry.name: text for entry, text in zip(with_result, texts, strict=True)}
+    """Return the texts of a column by the names of the rows; "" without a result."""
+    texts = {entry.name: with_minus(quantity.of(entry.record)) if entry.record else "" for entry in entries}
     if quantity.key == "outcome":
         kept = tr("initial mesh kept: no iteration was better")
-        named = {name: kept if text == KEPT_START else tr(text) for name, text in named.items()}
-    return {entry.name: named.get(entry.name, "") for entry in entries}
+        texts = {name: kept if text == KEPT_START else tr(text) for name, text in texts.items()}
+    return texts
 
 
 def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[str, str]) -> set[str]:
@@ -287,22 +269,3 @@ class ComparisonModel(RowModel):
     def help(self, column: int) -> str:
         """Return the help of a column."""
         return tr(LINES[column - _FIRST].help if column >= _FIRST else _HELP[column])
-
-
-def format_column(quantity: Quantity, records: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Format a column of values with one number of decimals; other texts are as `Quantity.of` has them.
-
-    The smallest value gets two significant digits, or the digits in which two optima may differ, and at most four
-    decimals.
-
-    >>> time = Quantity("seconds", "time, s", "", format_significant)
-    >>> format_column(time, [{"seconds": 0.0123}, {"seconds": 19.522}, {}])
-    ['0.012', '19.522', '–']
-    """
-    scale, digits = _SCALES.get(quantity.text, (0.0, 0))
-    values = [record.get(quantity.key) if scale else None for record in records]
-    positive = [abs(value) * scale for value in values if value]
-    if not positive:
-        return [quantity.of(record) for record in records]
-    decimals = min(max(digits - 1 - floor(log10(min(positive))), 0), 4)
-    return ["–" if value is None else f"{value * scale:,.{decimals}f}" for value in values]

@@ -99,7 +99,8 @@ class FeatureTimeline(Feature):
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
                 self.panel.set_labels(record.unit, record.labels())
-                self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
+                stored = len(history.recorded_numbers(record))
+                self.panel.set_track(record.newest, stored, record.pauses, history.bytes)
                 self.panel.delete.setEnabled(not active)
         self.panel.set_number(self._number)
         self._show_reading()

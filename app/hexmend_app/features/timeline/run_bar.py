@@ -53,7 +53,7 @@ class _State(ElidingLabel):
     """Label that has the width of the longest word, and is elided in a narrow window."""
 
     def sizeHint(self) -> QSize:
-        words = (self.text(), *(tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values())))
+        words = (tr(word) for word, _ in (*_PHASES.values(), *_ENDS.values()))
         return QSize(max(map(self.fontMetrics().horizontalAdvance, words)) + 4, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
@@ -86,18 +86,19 @@ class RunBar(QWidget):
     ) -> None:
         """Show the word for a phase of a run, for its outcome if it has ended, or that it failed or was undone.
 
-        A run that ended well but left some hexes inverted has their number, and the colour of a warning.
+        For a run that ended well but left some hexes inverted, their number in the colour of a warning.
         """
         if failed or undone:
             word, colour = _FAILED if failed else _UNDONE
         else:
             word, colour = _ENDS[outcome] if phase is Phase.FINISHED else _PHASES[phase]
-        text = tr(word)
+        text = help = tr(word)
         if inverted and colour is BETTER:
-            text, colour = tr("{word}, {count:,} inverted", word=text, count=inverted), AMBER
-        if self._state.text() != text:
+            text, colour = tr("{count:,} inverted", count=inverted), AMBER
+            help = f"{tr(word)}, {text}"
+        if self._state.toolTip() != help:
             self._state.setText(text)
-            self._state.setToolTip(text)
+            self._state.setToolTip(help)
             tint(self._state, colour)
 
     @property

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
@@ -92,31 +91,27 @@ class TimelineBar(QWidget):
         if not names:
             self.runs.setPlaceholderText(tr("No runs"))
             self.set_labels("iteration", ())
-            self.set_track(0, np.zeros(1, np.int64), {}, 0)
+            self.set_track(0, 1, {}, 0)
             self.set_number(None)
 
-    def set_track(self, newest: int, kept: np.ndarray, marks: Mapping[int, str], used: int) -> None:
+    def set_track(self, newest: int, stored: int, marks: Mapping[int, str], used: int) -> None:
         """Show the iterations of the run.
 
         Parameters
         ----------
         newest : int
             Number of the latest iteration.
-        kept : (k,) int
-            Numbers of the iterations whose positions are stored, ascending.
+        stored : int
+            Number of iterations whose positions are stored.
         marks : mapping of int to str
             Reasons of pauses, by iteration.
         used : int
             Memory of all runs in bytes.
         """
-        self.slider.set_track(newest, kept, marks)
-        stored = (
-            ""
-            if len(kept) == newest + 1
-            else tr(" {count} of them are stored, as marked below the slider.", count=len(kept))
-        )
+        self.slider.set_track(newest, marks)
+        part = "" if stored == newest + 1 else tr(" {count} of them are stored.", count=stored)
         pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
-        tip = f"<qt>{counted(newest, self._unit)}.{stored}{pauses}</qt>"
+        tip = f"<qt>{counted(newest, self._unit)}.{part}{pauses}</qt>"
         if tip != self.slider.toolTip():
             self.slider.setToolTip(tip)
         self._used.setText(tr("In use: {count}", count=size(used)))

@@ -40,7 +40,8 @@ def test_the_feature_compares_with_the_rules_of_the_next_run(host, qtbot):
     session = host.session
     feature = FeatureCompare(host)
     session.run_setup.set_rules(RULES)
-    feature.panel.run_requested.emit(["local-sd"])
+    feature.panel.model.tick(["local-sd"])
+    feature.run()
     qtbot.waitUntil(lambda: not session.comparison.busy)
     assert session.comparison.to_data().rules == RULES
 
