@@ -8,13 +8,12 @@ from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
-from hexmend.quality import measure, summarise
+from hexmend.quality import measure
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
-from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.picture import Page, Scene, Show
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -66,13 +65,6 @@ def histogram():
     return widget
 
 
-def statistics():
-    table = StatisticsTable()
-    start = summarise(MESH, FIGURES)
-    table.set_summaries(start, summarise(grid(5), measure(grid(5).points, grid(5).hexes)))
-    return table
-
-
 def worst():
     widget = WorstList()
     widget.show()
@@ -101,7 +93,6 @@ def convergence():
 
 BUILT = {
     "histogram": histogram,
-    "statistics": statistics,
     "worst": worst,
     "hex": one_element,
     **{kind: partial(message, kind) for kind in ("error", "warning", "info")},
