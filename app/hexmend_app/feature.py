@@ -1,8 +1,9 @@
 """Base class of the features of the viewer, and declarations of their actions and panels.
 
 A feature is a folder below `hexmend_app.features` with a module `feature` whose class `Feature...` derives from
-`Feature`. The window finds it there, and builds menus, tool bar, palette, and the page of keys from its
-declarations. Features do not import each other: they communicate through the session.
+`Feature`; a package outside the tree names its class in the entry points `hexmend.features`. The window builds menus,
+tool bar, palette, and the page of keys from its declarations. Features do not import each other: they communicate
+through the session.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def always() -> bool:
     return True
 
 
-class ActionFace(NamedTuple):
+class ButtonAppearance(NamedTuple):
     """Text, icon and help of an action on buttons."""
 
     text: str
@@ -63,7 +64,7 @@ class Action:
     id : str
         Identifies it for other features, settings and tests.
     text : str
-        Text in the menu, with an ampersand before its mnemonic; a free letter is assigned if there is none.
+        Text in the menu, with an ampersand before its mnemonic if it has one.
     handle : callable
         Called to execute the action; for an action with `checked`, with the new state.
     menu : str
@@ -80,13 +81,13 @@ class Action:
         Returns True if it is on; None for an action that is not checkable.
     title : callable, optional
         Returns the current text, if it changes.
-    face : callable, optional
+    appearance : callable, optional
         Returns the current text, icon and help on buttons, if they change.
     tool : str
         Text in the tool bar; "" to omit it there.
     needs_mesh : bool
         The action is disabled while no mesh is open.
-    part : int
+    section : int
         Number of the section of the menu; sections are separated by lines.
     exclusive : bool
         The action belongs to the exclusive actions of its menu, of which exactly one is checked.
@@ -106,10 +107,10 @@ class Action:
     enabled: Callable[..., bool] = always
     checked: Callable[..., bool] | None = None
     title: Callable[[], str] | None = None
-    face: Callable[..., ActionFace] | None = None
+    appearance: Callable[..., ButtonAppearance] | None = None
     tool: str = ""
     needs_mesh: bool = True
-    part: int = 0
+    section: int = 0
     exclusive: bool = False
     in_view: bool = False
     submenu: QMenu | None = None
@@ -120,19 +121,9 @@ class PanelPlace(Enum):
 
     TOOLS = "tools"  # docks at the top right, for tools that change the mesh or the picture
     FACTS = "facts"  # docks at the bottom right, for figures and charts
-    DRAWER = "drawer"  # docks below the view; those of a group open and close together
-    BELOW = "below"  # bars in the bottom row of the window, not docks
+    DRAWER = "drawer"  # docks below the view, each with a button in the bottom row of the window; closed at first
+    BAR = "bar"  # bars right below the view, not docks
     EMPTY = "empty"  # in place of the view while no mesh is open
-
-
-class PanelGroup(Enum):
-    """Group of panels by task; panels below the view are shown by group. The values are titles."""
-
-    LOOK = "Look"
-    FIND = "Find"
-    SMOOTH = "Smooth"
-    COMPARE = "Compare"
-    REPORT = "Report"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,8 +138,6 @@ class Panel:
         Text on its tab and in the menu View.
     widget : QWidget
     place : PanelPlace
-    group : PanelGroup
-        Panels below the view are visible together with those of the same group.
     tab : str
         Title of the dock that it shares with other panels, stacked; "" for a dock with this panel only.
     order : int
@@ -163,7 +152,6 @@ class Panel:
     title: str
     widget: QWidget
     place: PanelPlace
-    group: PanelGroup = PanelGroup.FIND
     tab: str = ""
     order: int = 50
     help: str = ""
@@ -178,19 +166,8 @@ class Feature(QObject):
     host : Host
     """
 
-    #: Order in which features are built; default of the other two orders.
-    order: ClassVar[int] = 50
     #: True if `refresh` is called for each iteration of an active run too.
     shows_iterations: ClassVar[bool] = False
-    #: Order of the actions of features in each menu.
-    menu_order: ClassVar[int]
-    #: Order in which features are refreshed.
-    refresh_order: ClassVar[int]
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        cls.menu_order = vars(cls).get("menu_order", cls.order)
-        cls.refresh_order = vars(cls).get("refresh_order", cls.order)
 
     def __init__(self, host: Host):
         super().__init__(host.dialog_parent)
@@ -215,10 +192,10 @@ class Feature(QObject):
         return ()
 
     def actions_ready(self) -> None:
-        """Show actions on buttons: the actions of all features have just been built; see `Host.action`."""
+        """Connect buttons to actions; called once when all actions exist, see `Host.action`."""
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Use the 3D view, which has just been built."""
+        """Connect to the 3D view; called once when it exists."""
 
     def refresh(self) -> None:
         """Show the current session; called once for all changes in a turn of the event loop."""
@@ -234,7 +211,7 @@ class Feature(QObject):
     def program_started(self) -> None:
         """Start tasks of the program, rather than of every window; called once all features are built."""
 
-    def may_leave(self) -> bool:
+    def confirm_close(self) -> bool:
         """Return True if the open mesh may be closed; may ask the user."""
         return True
 
@@ -283,12 +260,11 @@ def _differ(before: object, now: object) -> bool:
 __all__ = [
     "MENUS",
     "Action",
-    "ActionFace",
+    "ButtonAppearance",
     "ChangeTracker",
     "Feature",
     "Host",
     "Panel",
-    "PanelGroup",
     "PanelPlace",
     "StatePart",
     "always",

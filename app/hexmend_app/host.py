@@ -50,13 +50,13 @@ class Host(Protocol):
     def show_panel(self, id: str) -> None:
         """Open a panel in front of its tabs."""
 
-    def offer_panel(self, id: str) -> None:
-        """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
+    def raise_if_open(self, id: str) -> None:
+        """Put an open panel in front of its tabs; closed and hidden panels stay closed."""
 
-    def in_front(self, id: str) -> bool:
+    def is_visible(self, id: str) -> bool:
         """Return True if a panel is visible."""
 
-    def may_leave(self) -> bool:
+    def confirm_close(self) -> bool:
         """Return True if no feature objects to closing the mesh."""
 
     def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
@@ -69,7 +69,7 @@ class Host(Protocol):
         """Request a refresh of everything, once, in the next turn of the event loop."""
 
     @property
-    def stem(self) -> str:
+    def default_file_stem(self) -> str:
         """Default name of files to save, without suffix."""
 
     def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:

@@ -19,17 +19,17 @@ class PlainHost:
         self.session = Session(self.dialog_parent)
         self.canvas = None
         self.messages, self.busy = MessageBar(self.dialog_parent), Busy(self.dialog_parent)
-        self.stem = "mesh"
+        self.default_file_stem = "mesh"
         self.fronted: list[str] = []
         self.session.document.replace(State.of(mesh), path)
 
     def show_panel(self, id):
         self.fronted.append(id)
 
-    def in_front(self, id):
+    def is_visible(self, id):
         return id in self.fronted[-1:]
 
-    def may_leave(self):
+    def confirm_close(self):
         return True
 
     def wait_until(self, text, over, leave=""):

@@ -108,9 +108,8 @@ def lay_out(window, layout):
     """Restore a layout of the panels."""
     for panel in window.docks.ids():
         window.docks.show_panel(panel)  # restoring closes panels that are closed in the layout
-    for _ in range(2):  # first the panels in front, then their sizes
-        window.docks.restore(layout)
-        QApplication.processEvents()
+    window.docks.restore(layout)
+    QApplication.processEvents()
 
 
 def scroll_back(window):
@@ -124,6 +123,8 @@ def scroll_back(window):
 def settle(qtbot, window):
     """Fit the mesh in a standard view, activate the window and clear the keyboard focus."""
     window.refresh()
+    for _ in range(5):  # sizes reach nested widgets one level after the other
+        QApplication.processEvents()
     window.canvas.look_along("iso")
     window.canvas.fit()
     window.canvas.camera_animation.restart()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, QVariantAnimation, Signal
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.picture.camera_pose import CameraPose
@@ -12,8 +12,8 @@ from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose_history import PoseHistory
 from hexmend_app.scene.camera.vtk_pose import pose_of
 
-#: Duration of a flight, and interval between its frames, in milliseconds.
-_FLIGHT, _FRAME = 350, 25
+#: Duration of a flight in milliseconds.
+_FLIGHT = 350
 
 #: Time without movement after which the camera is at rest, in milliseconds.
 _REST = 300
@@ -45,9 +45,9 @@ class CameraAnimation(QObject):
         self._poses = PoseHistory()
         self._remembered: CameraPose | None = None
         self._flight: Flight | None = None
-        self._flight_time = QElapsedTimer()
-        self._timer = QTimer(self, interval=_FRAME)
-        self._timer.timeout.connect(self._continue)
+        self._animation = QVariantAnimation(self, duration=_FLIGHT, startValue=0.0, endValue=1.0)
+        self._animation.valueChanged.connect(self._continue)
+        self._animation.finished.connect(self._commit)
         self._rest_timer = QTimer(self, interval=_REST, singleShot=True)
         self._rest_timer.timeout.connect(self._commit)
 
@@ -56,7 +56,7 @@ class CameraAnimation(QObject):
     @property
     def active(self) -> bool:
         """True during a flight."""
-        return self._timer.isActive()
+        return self._animation.state() is QVariantAnimation.State.Running
 
     @property
     def at_rest(self) -> bool:
@@ -70,17 +70,14 @@ class CameraAnimation(QObject):
 
     def _start_flight(self, flight: Flight) -> None:
         self._rest_timer.stop()
+        self._animation.stop()
         self._flight = flight
-        self._flight_time.start()
-        self._timer.start()
+        self._animation.start()
 
-    def _continue(self) -> None:
-        share = min(self._flight_time.elapsed() / _FLIGHT, 1.0)
-        self._flight.at(share)
-        if share == 1.0:
-            self._timer.stop()
-            self._commit()
-        self.moved.emit()
+    def _continue(self, share: float) -> None:
+        if self._flight is not None:
+            self._flight.at(share)
+            self.moved.emit()
 
     # Movements by the user
 
@@ -88,7 +85,7 @@ class CameraAnimation(QObject):
         """Prepare for a movement by the user: record the current pose, and end a running flight."""
         if self.at_rest:
             self._commit()
-        self._timer.stop()
+        self._animation.stop()
 
     def end_move(self) -> None:
         """Note the end of a movement by the user; the pose is recorded when the camera is at rest."""
@@ -97,7 +94,7 @@ class CameraAnimation(QObject):
 
     def stop(self) -> None:
         """Stop flights and recording."""
-        self._timer.stop()
+        self._animation.stop()
         self._rest_timer.stop()
 
     def restart(self) -> None:

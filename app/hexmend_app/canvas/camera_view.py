@@ -6,9 +6,8 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -23,9 +22,6 @@ from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.camera_request import PoseHistoryData
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
-
-if TYPE_CHECKING:
-    pass
 
 #: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
@@ -91,7 +87,6 @@ class CameraView(QWidget):
         observe("StartInteractionEvent", lambda *_: self.camera_animation.begin_move())
         observe("InteractionEvent", lambda *_: self.turning())
         observe("EndInteractionEvent", lambda *_: self._on_interaction_end())
-        self._keys = _Keys(self)
 
     def fit(self) -> None:
         """Fit the shown hexes into the view."""
@@ -202,32 +197,18 @@ class CameraView(QWidget):
         self.camera_animation.stop()
         self.interactor.release_graphics()
 
-    def on_key(self, event: QKeyEvent) -> None:
-        """Move the camera if the key is bound to a movement."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move the camera if the key is bound to a movement; VTK receives no keys."""
         move = move_of(event, self.panes.camera_controller.up)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
+        else:
+            super().keyPressEvent(event)
 
 
 def _report(error: Exception) -> None:
     """Report the exception of a layer through the exception hook; the frame is drawn without the layer."""
     sys.excepthook(type(error), error, error.__traceback__)
-
-
-class _Keys(QObject):
-    """Event filter that handles keys itself, because key bindings of VTK switch to wireframe or quit."""
-
-    def __init__(self, view: CameraView):
-        super().__init__(view)
-        self._view = view
-        view.interactor.installEventFilter(self)
-
-    def eventFilter(self, watched: QObject, event: Any) -> bool:
-        """Handle all keys except Tab."""
-        if event.type() == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
-            self._view.on_key(event)
-            return True
-        return super().eventFilter(watched, event)
 
 
 def move_of(event: QKeyEvent, up: str) -> Callable[[vtkCamera], None] | None:

@@ -61,7 +61,7 @@ class Canvas(CameraView):
         The user moved the sphere in the view, or changed its radius.
     clicked(hit)
         The user clicked on a hex, (hex, nearest node), or outside the mesh, None.
-    dug(hex)
+    hide_clicked(hex)
         The user clicked on a hex with Ctrl.
     menu_requested(hit, place)
         The user opened the context menu on a hex, (hex, nearest node), or outside the mesh, None; `place` is its
@@ -73,7 +73,7 @@ class Canvas(CameraView):
     sphere_dragged = Signal(object, float)
     clicked = Signal(object)
     measured = Signal(object)
-    dug = Signal(int)
+    hide_clicked = Signal(int)
     menu_requested = Signal(object, QPoint)
 
     def __init__(self, parent: QWidget | None = None):
@@ -101,7 +101,7 @@ class Canvas(CameraView):
         pointer = Pointer(self.interactor)
         pointer.pressed.connect(self.camera_animation.begin_move)
         pointer.clicked.connect(self._click)
-        pointer.dug.connect(self._dig)
+        pointer.hide_clicked.connect(self._dig)
         pointer.double_clicked.connect(self._rotate_about)
         pointer.menu_requested_at.connect(self._request_menu)
 
@@ -267,7 +267,7 @@ class Canvas(CameraView):
     def _dig(self, place: QPointF) -> None:
         hit = self._pick(place)
         if hit is not None:
-            self.dug.emit(hit.hex)
+            self.hide_clicked.emit(hit.hex)
 
     def _rotate_about(self, place: QPointF) -> None:
         """Make the picked point the centre of rotation."""

@@ -23,7 +23,7 @@ class Pointer(QObject):
     -------
     pressed
         A button was pressed; a click or a drag begins.
-    clicked(place), dug(place)
+    clicked(place), hide_clicked(place)
         Click of the left button, without or with Ctrl.
     double_clicked(place)
         Double click of the left button; its first click is reported by `clicked` too.
@@ -36,7 +36,7 @@ class Pointer(QObject):
 
     pressed = Signal()
     clicked = Signal(QPointF)
-    dug = Signal(QPointF)
+    hide_clicked = Signal(QPointF)
     double_clicked = Signal(QPointF)
     menu_requested_at = Signal(QPointF)
 
@@ -73,7 +73,7 @@ class Pointer(QObject):
         if event.button() == Qt.MouseButton.LeftButton and self._double:
             QTimer.singleShot(0, self, lambda: self.double_clicked.emit(place))
         elif event.button() == Qt.MouseButton.LeftButton:
-            (self.dug if _with_ctrl(event) else self.clicked).emit(place)
+            (self.hide_clicked if _with_ctrl(event) else self.clicked).emit(place)
         elif event.button() == Qt.MouseButton.RightButton:
             QTimer.singleShot(0, self, lambda: self.menu_requested_at.emit(place))
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from PySide6.QtCore import QRect, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.canvas.view_captions import Caption, CaptionRow, WipeRow
@@ -46,11 +46,6 @@ class ViewFrame(QVBoxLayout):
         self.addWidget(view, 1)
         for row in self._rows:
             row.closed.connect(self.view_closed)
-
-    @property
-    def clickable(self) -> dict[QWidget, Callable[[], QRect]]:
-        """Widgets over the view that can be clicked or dragged, each with the area that must stay free."""
-        return {row: row.rect for row in self._rows} | {self.edge: self.edge.knob}
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Set the captions of the views, or of the sides of a wipe."""

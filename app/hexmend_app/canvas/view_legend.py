@@ -40,8 +40,6 @@ class ViewLegend:
         self._over, self._panes, self._frame = over, panes, frame
         self.colour_bar = ColourBar()
         self._overlay = Overlay(self.colour_bar, over, (1.0, 0.5), key="colour_bar")
-        for part, area in frame.clickable.items():
-            self._overlay.keep_off(part, area)
 
     def show_colours(self) -> None:
         """Show the colours of the views."""
@@ -64,7 +62,7 @@ class ViewLegend:
         width = self.colour_bar.sizeHint().width() + 2 * MARGIN
         several = len(self._panes.all) > 1 and self._panes.wipe is None and not self.colour_bar.isHidden()
         width = width if several and width < _MAX_SHARE * self._over.width() else 0
-        self._overlay.stay_home(width > 0)
+        self._overlay.lock_to_default(width > 0)
         self._frame.set_legend_width(width)
         self._panes.reserve_legend(round(width * self._over.devicePixelRatioF()))
 

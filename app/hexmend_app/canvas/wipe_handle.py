@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QRegion
+from PySide6.QtCore import QEvent, QObject, QRect, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QRegion
 from PySide6.QtWidgets import QWidget
 
-from hexmend_app.theme.palette import ACCENT, BLUE, FIELD, LINE, TEXT
+from hexmend_app.theme.palette import ACCENT, FIELD, LINE, TEXT
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
@@ -76,15 +76,9 @@ class WipeHandle(QWidget):
         inside = QColor(str(ACCENT if self.hasFocus() or self._grip is not None else TEXT))
         painter.fillRect(self._line.adjusted(1, 0, -1, 0), inside)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QColor(str(BLUE if self.hasFocus() else LINE)))
+        painter.setPen(QPen(inside, 2))
         painter.setBrush(QColor(str(FIELD)))
         painter.drawEllipse(self.knob().adjusted(1, 1, -2, -2))
-        painter.setBrush(inside)
-        painter.setPen(Qt.PenStyle.NoPen)
-        middle = self.knob().center()
-        for direction in (-1, 1):
-            tip, back = middle + QPoint(8 * direction, 0), middle + QPoint(3 * direction, 0)
-            painter.drawPolygon([tip, back + QPoint(0, -4), back + QPoint(0, 4)])
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Start to drag."""

@@ -1,4 +1,4 @@
-"""Find, import and build the features: each folder below `hexmend_app.features` contains one."""
+"""Find, import and build the features: each folder below `hexmend_app.features`, and those of other packages."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pkgutil
 import sys
 from collections.abc import Callable, Generator, Iterable, Sequence
 from importlib import import_module
+from importlib.metadata import entry_points
 from typing import TypeVar
 
 import hexmend_app.features as folder
@@ -14,26 +15,26 @@ from hexmend_app.feature import Feature, Host
 
 Declaration = TypeVar("Declaration")
 
+#: Features in the order in which they are built and refreshed, and in which their actions are in menus. Others follow,
+#: sorted by name: the appearance draws the mesh before they use what the view has drawn.
+ORDER = (
+    "open", "save", "export", "session", "edit", "smooth", "timeline", "recipe", "target_surface", "appearance",
+    "histogram", "quality", "hex_inspector", "node_step", "camera", "cut", "measure", "structure", "curves", "doctor",
+    "pad", "pyvista_window", "tags", "outcome", "convergence", "side_views", "movement", "compare", "reproduce",
+    "theme", "help",
+)  # fmt: skip
+
+#: Features that open and draw a mesh; they are built first, so that the first picture does not wait for the others.
+FIRST = ("open", "appearance", "camera")
+
+#: Entry points of features in other packages: each names a class that derives from `Feature`.
+GROUP = "hexmend.features"
+
 
 def feature_names() -> list[str]:
-    """Return the names of all features, which are those of their folders."""
-    return [module.name for module in pkgutil.iter_modules(folder.__path__)]
-
-
-def first_names() -> list[str]:
-    """Return the names of the features that open and draw a mesh: their packages declare `FIRST = True`.
-
-    They are built first, so that the first picture does not wait for the others. No module `feature` is imported.
-    """
-    first = []
-    for name in feature_names():
-        try:
-            package = import_module(f"{folder.__name__}.{name}")
-        except Exception:  # reported and omitted when all features are built
-            continue
-        if getattr(package, "FIRST", False):
-            first.append(name)
-    return first
+    """Return the names of the features below `hexmend_app.features`, which are those of their folders, in order."""
+    names = [module.name for module in pkgutil.iter_modules(folder.__path__)]
+    return sorted(names, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
 
 
 def feature_class(name: str) -> type[Feature]:
@@ -55,16 +56,6 @@ def feature_class(name: str) -> type[Feature]:
     return classes[0]
 
 
-def in_order(kinds: Iterable[type[Feature]]) -> list[type[Feature]]:
-    """Sort classes of features into the order in which they are built."""
-    return sorted(kinds, key=lambda kind: (kind.order, kind.__module__))
-
-
-def feature_name(kind: type[Feature]) -> str:
-    """Return the name of a feature, which is that of its folder."""
-    return kind.__module__.split(".")[-2]
-
-
 def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, None, dict[str, Feature]]:
     """Import and build all features that are not built yet, step by step.
 
@@ -79,22 +70,19 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
     dict
         All features by name, in building order; a feature that raises is reported and omitted.
     """
-    kinds, features = [], dict(built)
+    sources: dict[str, Callable[[], type[Feature]]] = {}
     for name in feature_names():
+        sources[name] = lambda name=name: feature_class(name)  # type: ignore[misc]
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        sources.setdefault(entry.name, entry.load)
+    features = {}
+    for name, load in sources.items():
         try:
-            kinds.append(feature_class(name))  # importing takes longer than building
+            features[name] = built[name] if name in built else load()(host)
         except Exception:  # build the other features nevertheless
             sys.excepthook(*sys.exc_info())
         yield
-    kinds = in_order(kinds)
-    for kind in kinds:
-        if feature_name(kind) not in features:
-            try:
-                features[feature_name(kind)] = kind(host)
-            except Exception:
-                sys.excepthook(*sys.exc_info())
-            yield
-    return {feature_name(kind): features[feature_name(kind)] for kind in kinds if feature_name(kind) in features}
+    return features
 
 
 def declared(
@@ -111,8 +99,8 @@ def declared(
 
 
 def call_each(features: Iterable[Feature], call: Callable[[Feature], object]) -> None:
-    """Call each feature, in the order in which they are refreshed; those that raise are reported."""
-    for feature in sorted(features, key=lambda feature: feature.refresh_order):
+    """Call each feature; those that raise are reported."""
+    for feature in features:
         try:
             call(feature)
         except Exception:  # call the other features nevertheless

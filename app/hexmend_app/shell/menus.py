@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
-from hexmend_app.feature import MENUS, Action, ActionFace
+from hexmend_app.feature import MENUS, Action, ButtonAppearance
 from hexmend_app.theme.style import icon
 from hexmend_app.translation import tr
 
@@ -42,8 +42,6 @@ class Menus:
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
-        for bar in (window.menuBar(), *self._menus.values()):
-            _assign_mnemonics([action for action in bar.actions() if not action.isSeparator()])
         if self._bar.actions() and self._bar.actions()[-1].isSeparator():
             self._bar.removeAction(self._bar.actions()[-1])
         self._bar.setMinimumWidth(self._bar.sizeHint().width())  # otherwise Qt hides buttons that fit
@@ -51,19 +49,19 @@ class Menus:
 
     def _fill(self, name: str, actions: list[Action]) -> None:
         group = QActionGroup(self._window) if any(declared.exclusive for declared in actions) else None
-        part = None
-        for declared in sorted(actions, key=lambda declared: declared.part):
+        section = None
+        for declared in sorted(actions, key=lambda declared: declared.section):
             action = self._make(declared)
             if name:
                 menu = self._menus[name]
-                if part is not None and part != declared.part:
+                if section is not None and section != declared.section:
                     menu.addSeparator()
                 menu.addAction(action)
                 if declared.submenu is not None:
                     menu.addMenu(declared.submenu)
             else:
                 self._window.addAction(action)
-            part = declared.part
+            section = declared.section
             if declared.exclusive:
                 group.addAction(action)
             if declared.tool:
@@ -77,7 +75,7 @@ class Menus:
         action = QAction(declared.text, self._window)
         action.setShortcut(QKeySequence(declared.keys))
         action.setProperty("name", declared.text.replace("&", "").rstrip("…"))
-        _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
+        _show_appearance(action, ButtonAppearance(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
         handle = declared.handle
@@ -102,10 +100,10 @@ class Menus:
             action.setEnabled((is_open or not declared.needs_mesh) and declared.enabled())
             if declared.checked is not None:
                 action.setChecked(declared.checked())
-            if declared.face is not None:
-                face = declared.face()
-                action.setProperty("name", face.text)
-                _show_face(action, face)
+            if declared.appearance is not None:
+                appearance = declared.appearance()
+                action.setProperty("name", appearance.text)
+                _show_appearance(action, appearance)
             if declared.title is not None:
                 action.setText(declared.title())
                 action.setIconText(declared.tool or declared.text.replace("&", ""))
@@ -129,29 +127,19 @@ class Menus:
         return menu
 
 
-def _show_face(action: QAction, face: ActionFace) -> None:
+def _show_appearance(action: QAction, appearance: ButtonAppearance) -> None:
     """Set the text, icon and help that buttons of an action show; with an empty text they show the text of the menu."""
-    if action.property("face") == list(face):
+    if action.property("appearance") == list(appearance):
         return
-    action.setProperty("face", list(face))
-    if face.icon:
-        action.setProperty("icon_name", face.icon)
-        action.setIcon(icon(face.icon))
-    if face.text:
-        action.setIconText(face.text)
+    action.setProperty("appearance", list(appearance))
+    if appearance.icon:
+        action.setProperty("icon_name", appearance.icon)
+        action.setIcon(icon(appearance.icon))
+    if appearance.text:
+        action.setIconText(appearance.text)
     keys = action.shortcut().toString(QKeySequence.SequenceFormat.PortableText)
-    action.setToolTip(f"<qt>{face.help}{f' ({keys})' if keys else ''}</qt>")
-    action.setStatusTip(face.help)
-
-
-def _assign_mnemonics(actions: Sequence[QAction]) -> None:
-    """Give the entries of a menu without a mnemonic their first free letters; Qt cycles through equal ones."""
-    used = {action.text().partition("&")[2][:1].lower() for action in actions}
-    for action in (action for action in actions if "&" not in action.text()):
-        text = action.text()
-        at = next((at for at, letter in enumerate(text.lower()) if letter.isalnum() and letter not in used), 0)
-        used.add(text[at].lower())
-        action.setText(f"{text[:at]}&{text[at:]}")
+    action.setToolTip(f"<qt>{appearance.help}{f' ({keys})' if keys else ''}</qt>")
+    action.setStatusTip(appearance.help)
 
 
 def _menus(window: QMainWindow) -> dict[str, QMenu]:

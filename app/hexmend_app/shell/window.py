@@ -6,32 +6,20 @@ from collections.abc import Callable, Iterable, Iterator
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import QMainWindow, QWidget
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence, QShortcut
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, PanelPlace
-from hexmend_app.shell.features import (
-    build_remaining,
-    call_each,
-    declared,
-    feature_class,
-    feature_name,
-    first_names,
-    in_order,
-)
-from hexmend_app.shell.geometry import lay_out_status_bar, restore_geometry
-from hexmend_app.shell.key_filters import FocusAfterReturn, LetterKeys
+from hexmend_app.shell.features import FIRST, build_remaining, call_each, declared, feature_class
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
-from hexmend_app.shell.refresh_timer import RefreshTimer
 from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import wait_for_dropped
 from hexmend_app.translation import tr
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.opengl import reserve_opengl
-from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -74,22 +62,25 @@ class Window(QMainWindow):
         self.setWindowTitle(tr("Hexmend"))
         self.messages, self.busy = MessageBar(), Busy()
         self.docks = Docks(self)
-        Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
+        self.docks.view.addWidget(self.messages)
         reserve_opengl(self)
-        LetterKeys(self)
-        FocusAfterReturn(self, lambda: None if self.canvas is None else self.canvas.interactor)
         self._counts = HexCounts()
-        lay_out_status_bar(self.statusBar(), self.docks.bars, self._counts, self.docks.row)
-        Overlay(self.busy, self.docks.centre, (1.0, 1.0))  # the slider in the bottom row stays in place
+        self.statusBar().setSizeGripEnabled(False)
+        self.statusBar().addPermanentWidget(self.docks.buttons, 1)  # messages do not hide permanent widgets
+        self.statusBar().addPermanentWidget(self.busy)
+        self.statusBar().addPermanentWidget(self._counts)
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
         self._menus: Menus | None = None
-        self._timer = RefreshTimer(self)
-        self._timer.all_changed.connect(self.refresh)
-        self._timer.iteration_changed.connect(self.refresh_iteration)
+        self._iteration_only = True  # nothing else has changed
+        self._timer = QTimer(self, singleShot=True, interval=0)  # combines the changes in a turn of the event loop
+        self._timer.timeout.connect(lambda: self.refresh_iteration() if self._iteration_only else self.refresh())
         self._menus_shown = 0.0
-        restore_geometry(self)
+        screen = self.screen().availableGeometry()
+        self.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
+        self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry
+        QApplication.instance().focusChanged.connect(self._on_focus_changed)  # type: ignore[attr-defined]
 
     # Building
 
@@ -98,12 +89,12 @@ class Window(QMainWindow):
         from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
-        self.features = {feature_name(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
+        self.features = {name: feature_class(name)(self) for name in FIRST}
         self._add_states(self.features.values())
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
-        for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):
+        for signal in (self.docks.changed, self.messages.changed):
             signal.connect(self.refresh_soon)
-        self.session.changed.connect(lambda: self._timer.refresh(iteration_only=self.session.run.iterating))
+        self.session.changed.connect(lambda: self._refresh_soon(iteration_only=self.session.run.iterating))
         self.docks.reserve(settings.PANELS.get())
         self.refresh()
 
@@ -118,9 +109,10 @@ class Window(QMainWindow):
         self._add_states(added)
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
-        in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
-        actions = declared(in_menu_order, lambda feature: feature.actions())
+        actions = declared(self.features.values(), lambda feature: feature.actions())
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
+        for action in self._menus.actions.values():
+            action.triggered.connect(self.messages.leave_card)
         call_each(self.features.values(), lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:
@@ -149,8 +141,9 @@ class Window(QMainWindow):
 
         self.canvas = Canvas()
         self.canvas.hide()
-        self.docks.view.insertWidget(0, self.canvas, 1)
+        self.docks.view.insertWidget(self.docks.view.indexOf(self.messages) + 1, self.canvas, 1)
         self.canvas.menu_requested.connect(self._open_menu)
+        self.canvas.clicked.connect(self.messages.leave_card)
         panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas.interactor, self.toggle_panels)
         panels.setContext(Qt.ShortcutContext.WidgetShortcut)
         for feature in self.features.values():
@@ -182,24 +175,24 @@ class Window(QMainWindow):
         """Open a panel in front of its tabs."""
         self.docks.show_panel(id)
 
-    def offer_panel(self, id: str) -> None:
-        """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
-        self.docks.offer_panel(id)
+    def raise_if_open(self, id: str) -> None:
+        """Put an open panel in front of its tabs; closed and hidden panels stay closed."""
+        self.docks.raise_if_open(id)
 
-    def in_front(self, id: str) -> bool:
+    def is_visible(self, id: str) -> bool:
         """Return True if a panel is visible."""
-        return self.docks.in_front(id)
+        return self.docks.is_visible(id)
 
     def toggle_panels(self) -> None:
         """Hide all panels, or show them again."""
         self.docks.set_hidden(not self.docks.hidden)
 
-    def may_leave(self) -> bool:
+    def confirm_close(self) -> bool:
         """Return True if no feature objects to closing the mesh."""
-        return all(feature.may_leave() for feature in self.features.values())
+        return all(feature.confirm_close() for feature in self.features.values())
 
     @property
-    def stem(self) -> str:
+    def default_file_stem(self) -> str:
         """Default name of files to save, without suffix."""
         document = self.session.document
         return document.path.stem if document.path else "mesh"
@@ -228,11 +221,16 @@ class Window(QMainWindow):
 
     def refresh_soon(self) -> None:
         """Request a refresh of everything, once, in the next turn of the event loop."""
-        self._timer.refresh(iteration_only=False)
+        self._refresh_soon(iteration_only=False)
+
+    def _refresh_soon(self, iteration_only: bool) -> None:
+        self._iteration_only = self._iteration_only and iteration_only
+        self._timer.start()
 
     def refresh(self) -> None:
         """Show the current state of the session."""
         self._timer.stop()
+        self._iteration_only = True
         if self.session is None:
             return
         call_each(self.features.values(), lambda feature: feature.refresh())
@@ -265,13 +263,30 @@ class Window(QMainWindow):
         if self._menus is not None:
             self._menus.context_menu().popup(at)
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move the focus to the view after Return in a field, which has acted on it and passed it on."""
+        fields = (QLineEdit, QAbstractSpinBox)
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and isinstance(QApplication.focusWidget(), fields):
+            if self.canvas is not None:
+                self.canvas.interactor.setFocus(Qt.FocusReason.OtherFocusReason)
+        else:
+            super().keyPressEvent(event)
+
+    def _on_focus_changed(self, before: QWidget | None, now: QWidget | None) -> None:
+        """Scroll a panel to a widget that receives the focus by a key."""
+        if now is not None and self._menus is not None and not QApplication.mouseButtons():
+            from hexmend_app.shell.panels.stacked_panels import scroll_to
+
+            scroll_to(now)
+
     # Closing
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Save the layout, close the features and the 3D view, and wait for all threads."""
-        if not self.may_leave():
+        if not self.confirm_close():
             event.ignore()
             return
+        QApplication.instance().focusChanged.disconnect(self._on_focus_changed)  # type: ignore[attr-defined]
         settings.GEOMETRY.set(self.saveGeometry())
         if self._menus is not None:  # otherwise the panels have not been added yet
             settings.PANELS.set(self.docks.state())

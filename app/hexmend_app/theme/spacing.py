@@ -17,7 +17,7 @@ Part = QWidget | QLayout | tuple[QWidget | QLayout, int] | int | None
 GAP, MARGIN, WINDOW_MARGIN = 8, 8, 12
 
 
-def on_grid(layout: Layout) -> Layout:
+def apply_spacing(layout: Layout) -> Layout:
     """Set the spacings of a new layout, and its margins if it belongs to a widget; return it.
 
     Parameters
@@ -48,11 +48,11 @@ def fill(layout: Box, *parts: Part, margins: tuple[int, int, int, int] | None = 
     layout : QBoxLayout
     parts : sequence of Part
     margins : tuple of int, optional
-        Left, top, right and bottom margin in pixels; by default those of `on_grid`.
+        Left, top, right and bottom margin in pixels; by default those of `apply_spacing`.
     spacing : int, optional
         Pixels between the parts; None for that of the layout around it.
     """
-    on_grid(layout).setSpacing(-1 if spacing is None else spacing)
+    apply_spacing(layout).setSpacing(-1 if spacing is None else spacing)
     if margins is not None:
         layout.setContentsMargins(*margins)
     for part in parts:

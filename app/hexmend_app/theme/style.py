@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from string import Template
 
 from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPalette
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy, QToolButton, QToolTip, QWidget
 
+from hexmend_app.resources import resource
+from hexmend_app.theme import palette
 from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import (
     BLUE,
@@ -24,7 +28,6 @@ from hexmend_app.theme.palette import (
     THEME,
     Role,
 )
-from hexmend_app.theme.style_sheet import control_sheet
 
 _ROLE = QPalette.ColorRole
 _PALETTE = (
@@ -51,6 +54,14 @@ _PALETTE = (
 )
 
 
+@cache
+def control_sheet(dark: bool) -> str:
+    """Return the style sheet of all controls in the dark or in the light theme."""
+    colours = {name: role.of(dark) for name, role in vars(palette).items() if isinstance(role, Role)}
+    sheet = Template(resource("controls.qss").read_text(encoding="utf-8"))
+    return sheet.substitute(colours, images=resource("controls").as_posix())
+
+
 class _ThemeNotifier(QObject):
     """Emits `changed` when the theme changes."""
 
@@ -67,13 +78,13 @@ def apply_style(app: QApplication, dark: bool) -> None:
     if app.property("dark") is None:  # only once, as it polishes all widgets, which is slow
         app.setStyle("Fusion")
     app.setProperty("dark", dark)
-    palette = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
+    colours = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
     for role, colour in _PALETTE:
-        palette.setColor(role, QColor(colour.of(dark)))
+        colours.setColor(role, QColor(colour.of(dark)))
     for role in (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText):
-        palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT.of(dark)))
-    app.setPalette(palette)
-    QToolTip.setPalette(palette)
+        colours.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT.of(dark)))
+    app.setPalette(colours)
+    QToolTip.setPalette(colours)
     THEME.dark = dark
     app.setStyleSheet(control_sheet(dark))
     _NOTIFIER.changed.emit()
@@ -217,6 +228,6 @@ def tint(widget: QWidget, colour: Role) -> None:
 
 
 def _tint(widget: QWidget) -> None:
-    palette = QPalette()
-    palette.setColor(_ROLE.WindowText, QColor(str(widget.property("tint"))))
-    widget.setPalette(palette)
+    colours = QPalette()
+    colours.setColor(_ROLE.WindowText, QColor(str(widget.property("tint"))))
+    widget.setPalette(colours)

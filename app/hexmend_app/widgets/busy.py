@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QSizePolicy, QWidget
 
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
@@ -17,12 +17,11 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 _STEPS = 1000
 
 
-class Busy(QFrame):
+class Busy(QWidget):
     """Progress indicator of the newest task, with a button that ends it."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setObjectName("busy")
         self._text = ElidingLabel()
         self._text.setAccessibleName(tr("Current task"))
         self._bar = QProgressBar()
@@ -32,11 +31,12 @@ class Busy(QFrame):
         self._bar.setAccessibleName(tr("Progress of the task"))
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Ignored)  # the status bar keeps its height
         self._cancel.clicked.connect(lambda: self._end())
         self._escape_owner = ""
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._tasks: dict[str, tuple[str, str, str, Callable[[], object], float | None]] = {}  # by owner
-        fill(QHBoxLayout(self), self._text, self._bar, self._cancel, margins=(8, 4, 8, 4))
+        fill(QHBoxLayout(self), self._text, self._bar, self._cancel, margins=(8, 0, 8, 0))
         self.hide()
 
     def show_work(

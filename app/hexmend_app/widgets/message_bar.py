@@ -1,4 +1,4 @@
-"""Bar over the view with errors, warnings and results."""
+"""Line above the view with errors, warnings and results."""
 
 from __future__ import annotations
 
@@ -7,28 +7,27 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, set_variant, tool_button
 from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
-_MAX_SHOWN, _MAX_STORED = 700, 100
+_MAX_SHOWN, _MAX_STORED = 400, 100
+
+Choices = Sequence[tuple[str, Callable[[], object]]]
 
 
 @dataclass
 class _Message:
-    """Message, with the number of its repetitions and its sequence number."""
-
     kind: str
     title: str
     text: str
+    choices: Choices = ()
     timeout_ms: int = 0
-    choices: tuple[tuple[str, Callable[[], object]], ...] = ()
-    times: int = 1
-    number: int = 0
+    is_card: bool = False
     report: str = ""
 
 
@@ -44,9 +43,8 @@ _PRIORITIES = list(_KINDS)
 class MessageBar(QFrame):
     """Bar that shows one message at a time, and is hidden without messages.
 
-    Errors are shown first, then warnings and results, each with the newest first. A message with lower priority than
-    the message shown waits behind it. Esc dismisses a message that does not go by itself. A message that repeats the
-    last one of its kind is counted, not queued.
+    Errors are shown first, then warnings and results, each with the newest first; the others wait until the message
+    shown is dismissed. Esc dismisses a message that does not go by itself.
 
     Attributes
     ----------
@@ -55,62 +53,37 @@ class MessageBar(QFrame):
 
     Signals
     -------
-    emptied
-        The last message has been dismissed.
-    filled
-        A message is shown that takes Esc, or a first one.
+    changed
+        The message shown has changed, or the last one has been dismissed.
     """
 
-    emptied = Signal()
-    filled = Signal()
+    changed = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._messages: list[_Message] = []  # in the order of showing
-        self._at = 0
+        self._messages: list[_Message] = []  # oldest first
         self.setObjectName("message_bar")
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-        self._icon = QLabel()
-        self.title, self.text = QLabel(), QLabel()
+        self._icon, self.title, self.text = QLabel(), QLabel(), QLabel()
         for label in (self.title, self.text):
-            label.setWordWrap(True)
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(
                 Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
             )
             label.setMinimumWidth(80)
         self.title.setFont(bold(self.title.font()))
-        self._next = QToolButton()
-        self._next.setAutoRaise(True)
-        self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self._next, tr("Next message"), tr("Show the next message."))
-        self._next.clicked.connect(self._show_next)
+        self.text.setWordWrap(True)
         self._copy, self._dismiss = tool_button("content-copy"), tool_button("close")
         self._copy.clicked.connect(self._copy_message)
         self._dismiss.clicked.connect(self.dismiss)
         set_help(self._copy, tr("Copy message"), tr("Copy the whole message to the clipboard."))
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
-        self._escape.setEnabled(False)
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
+        self._timer = QTimer(self, singleShot=True)
         self._timer.timeout.connect(self.dismiss)
-
-        buttons = QHBoxLayout()
-        buttons.setSpacing(4)
-        for button in (self._next, self._copy, self._dismiss):
-            buttons.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
-        layout = QGridLayout(self)
-        layout.setContentsMargins(12, 8, 8, 8)
-        layout.setHorizontalSpacing(8)
-        layout.setVerticalSpacing(4)
-        layout.setColumnStretch(1, 1)
-        layout.addWidget(self._icon, 0, 0, Qt.AlignmentFlag.AlignTop)
-        layout.addWidget(self.title, 0, 1)
-        layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
-        layout.addWidget(self.text, 1, 1, 1, 2)
-        self._choices = fill(QHBoxLayout(), None)
-        layout.addLayout(self._choices, 2, 1, 1, 2)
-        self.hide()
+        self._choices = fill(QHBoxLayout())
+        parts = (self._icon, self.title, self.text, self._choices, self._copy, self._dismiss)
+        self._row = fill(QHBoxLayout(self), *parts, margins=(8, 2, 4, 2))
+        self._refresh()
         on_theme_change(self, self._paint)
 
     def show_error(self, title: str, text: str = "", report: str = "") -> None:
@@ -121,61 +94,58 @@ class MessageBar(QFrame):
         """Show a warning until it is dismissed."""
         self._add(_Message("warning", title, text))
 
-    def show_offer(self, title: str, text: str, choices: Sequence[tuple[str, Callable[[], object]]]) -> None:
+    def show_offer(self, title: str, text: str, choices: Choices) -> None:
         """Show a warning with a button for each choice (text, function), which dismisses it and calls the function."""
-        self._add(_Message("warning", title, text, choices=tuple(choices)))
+        self._add(_Message("warning", title, text, choices))
 
     def show_info(self, text: str, timeout_ms: int = 6000) -> None:
         """Show a result for `timeout_ms` milliseconds (0: until dismissed)."""
-        self._add(_Message("info", text, "", timeout_ms))
+        self._add(_Message("info", text, "", timeout_ms=timeout_ms))
 
-    def show_result(
-        self, title: str, text: str, choices: Sequence[tuple[str, Callable[[], object]]], timeout_ms: int = 12_000
-    ) -> None:
+    def show_result(self, title: str, text: str, choices: Choices, timeout_ms: int = 12_000) -> None:
         """Show a result for `timeout_ms` milliseconds with a button for each choice, as `show_offer`."""
-        self._add(_Message("info", title, text, timeout_ms, tuple(choices)))
+        self._add(_Message("info", title, text, choices, timeout_ms))
+
+    def show_card(self, title: str, text: str, choices: Choices, timeout_ms: int) -> None:
+        """Show a result as `show_result`, at most until the first action of the user."""
+        self._add(_Message("info", title, text, choices, timeout_ms, is_card=True))
 
     def _add(self, message: _Message) -> None:
-        rank = _rank(message)
-        shown = self._messages[self._at] if self._messages else None
-        at = next((at for at, other in enumerate(self._messages) if _rank(other) >= rank), len(self._messages))
-        last = self._messages[at] if at < len(self._messages) else None
-        if last is not None and (last.kind, last.title, last.text) == (message.kind, message.title, message.text):
-            last.times += 1
-        else:
-            # A result replaces the previous one, which is out of date.
-            if last is not None and last.kind == message.kind == "info":
-                self._messages.pop(at)
-            message.number = max((other.number for other in self._messages), default=0) + 1
-            self._messages.insert(at, message)
-            del self._messages[_MAX_STORED:]
-        if shown is None or rank <= _rank(shown):
-            self._at = at
+        key = message.kind, message.title, message.text
+        if key in self.messages() and message.kind != "info":
+            return  # for example, of a view that cannot be drawn
+        # A result replaces the previous one, which is out of date.
+        self._messages = [other for other in self._messages if not (other.kind == message.kind == "info")]
+        self._messages = [*self._messages[1 - _MAX_STORED :], message]
         self._refresh()
+
+    @property
+    def _shown(self) -> _Message | None:
+        newest_first = reversed(self._messages)
+        return min(newest_first, key=lambda message: _PRIORITIES.index(message.kind), default=None)
 
     def dismiss(self) -> None:
         """Remove the message shown, and show the next one if there is one."""
-        if self._messages:
-            self._messages.pop(self._at)
-            self._refresh()
-            if not self._messages:
-                self.emptied.emit()
+        shown = self._shown
+        self._keep(lambda message: message is not shown)
 
     def remove(self, title: str, text: str) -> None:
         """Remove the messages with a title and text, which are no longer true."""
-        shown = self._messages[self._at] if self._messages else None
-        left = [message for message in self._messages if (message.title, message.text) != (title, text)]
-        if len(left) < len(self._messages):
-            self._messages = left
-            self._at = left.index(shown) if shown in left else 0
-            self._refresh()
-            if not left:
-                self.emptied.emit()
+        self._keep(lambda message: (message.title, message.text) != (title, text))
+
+    def leave_card(self, *_: object) -> None:
+        """Remove a card: the user has done something."""
+        self._keep(lambda message: not message.is_card)
 
     def clear(self) -> None:
         """Remove all messages."""
-        while self._messages:
-            self.dismiss()
+        self._keep(lambda message: False)
+
+    def _keep(self, wanted: Callable[[_Message], bool]) -> None:
+        left = list(filter(wanted, self._messages))
+        if len(left) < len(self._messages):
+            self._messages = left
+            self._refresh()
 
     @property
     def takes_escape(self) -> bool:
@@ -184,72 +154,53 @@ class MessageBar(QFrame):
 
     def messages(self) -> list[tuple[str, str, str]]:
         """Return kind, title and text of all stored messages, oldest first."""
-        messages = sorted(self._messages, key=lambda message: message.number)
-        return [(message.kind, message.title, message.text) for message in messages]
+        return [(message.kind, message.title, message.text) for message in self._messages]
 
     def _choose(self, choice: Callable[[], object]) -> None:
         self.dismiss()
         choice()
 
-    def _show_choices(self, message: _Message) -> None:
-        while self._choices.count() > 1:
-            button = self._choices.takeAt(1).widget()
-            button.hide()
-            button.deleteLater()
-        for text, choice in message.choices:
-            button = QPushButton(text)
-            button.clicked.connect(lambda _=False, choice=choice: self._choose(choice))
-            self._choices.addWidget(button)
-            button.show()
-
-    def _show_next(self) -> None:
-        self._at += 1
-        self._refresh()
-
     def _copy_message(self) -> None:
-        message = self._messages[self._at]
+        message = self._shown
         QGuiApplication.clipboard().setText("\n".join(filter(None, (message.title, message.text, message.report))))
 
     def _paint(self) -> None:
-        if self._messages:
-            kind = self._messages[self._at].kind
-            icon_name, colour = _KINDS[kind]
-            set_variant(self, kind, "kind")
-            self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(20, 20), self.devicePixelRatioF()))
+        if self._shown is not None:
+            icon_name, colour = _KINDS[self._shown.kind]
+            set_variant(self, self._shown.kind, "kind")
+            self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(18, 18), self.devicePixelRatioF()))
 
     def _refresh(self) -> None:
+        message = self._shown
         self._timer.stop()
-        before = self._escape.isEnabled()
-        self._escape.setEnabled(False)
-        filled = bool(self._messages) and self.isHidden()
-        self.setVisible(bool(self._messages))
-        if not self._messages:
-            self._at = 0
-            return
-        self._at %= len(self._messages)
-        message = self._messages[self._at]
-        self._escape.setEnabled(not message.timeout_ms)  # what goes by itself leaves Esc to others
+        goes = message is None or bool(message.timeout_ms) or message.is_card
+        self._escape.setEnabled(not goes)  # what goes by itself leaves Esc to others
+        self.setVisible(message is not None)
+        if message is not None:
+            self._show(message)
+        self.changed.emit()
+
+    def _show(self, message: _Message) -> None:
         help = tr("Dismiss this message (Esc).") if self.takes_escape else tr("Dismiss this message.")
         set_help(self._dismiss, tr("Dismiss message"), help)
-        if filled or self.takes_escape is not before:
-            self.filled.emit()
         self._paint()
         self._icon.setAccessibleName(tr(message.kind))
-        self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
+        self.title.setText(message.title)
+        self.title.setWordWrap(not message.text)
+        self._row.setStretchFactor(self.title, 0 if message.text else 1)
+        self._row.setStretchFactor(self.text, 1)
         long = len(message.text) > _MAX_SHOWN
         self.text.setText(
             tr("{text}… (Copy copies the full text.)", text=message.text[:_MAX_SHOWN]) if long else message.text
         )
         self.text.setVisible(bool(message.text))
-        self._show_choices(message)
-        self._next.setVisible(len(self._messages) > 1)
-        self._next.setText(tr("{number} of {count}  ›", number=self._at + 1, count=len(self._messages)))
+        clear(self._choices)
+        for text, choice in message.choices:
+            button = QPushButton(text)
+            button.clicked.connect(lambda _=False, choice=choice: self._choose(choice))
+            self._choices.addWidget(button)
+            button.show()
         if message.timeout_ms:
             self._timer.start(message.timeout_ms)
         self.setAccessibleName(f"{tr(message.kind)}: {message.title}")
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
-
-
-def _rank(message: _Message) -> int:
-    """Return the rank of the priority of a message; 0 is the highest."""
-    return _PRIORITIES.index(message.kind)

@@ -117,7 +117,7 @@ def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
 
 
 def test_two_clicks_with_ctrl_dig_twice(canvas):
-    dug = heard_from(canvas.dug)
+    dug = heard_from(canvas.hide_clicked)
     view, ctrl = canvas.interactor, Qt.KeyboardModifier.ControlModifier
     QTest.mouseClick(view, LEFT, ctrl, middle(canvas))
     at = QPointF(middle(canvas))

@@ -66,9 +66,29 @@ def test_a_feature_is_found_by_its_folder(with_folder, cube):
     window.session.document.replace(State.of(cube), None)
     window.refresh()
     window.action("volume").trigger()
-    assert window.in_front("volume")
+    assert window.is_visible("volume")
     volume = METRICS["volume"].of(cube.points, cube.hexes, window.session.document.now.figures).sum()
     assert np.isclose(float(window.features["volume"].panel.text().split()[0]), volume)
+
+
+def test_a_feature_of_another_package_is_found_by_its_entry_point(qtbot, tmp_path, monkeypatch):
+    metadata = tmp_path / "volumes-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: volumes\nVersion: 1.0\n")
+    entries = "[hexmend.features]\nbroken = volumes:Missing\nvolume = volumes:FeatureVolume\n"
+    (metadata / "entry_points.txt").write_text(entries)
+    (tmp_path / "volumes.py").write_text(EXAMPLE, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    reported = []
+    monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: reported.append(kind))
+    window = Window()
+    window.build_features()
+    assert reported == [AttributeError]
+    assert list(window.features)[-1] == "volume"
+    assert window.action("volume").text() == "&Volume of the mesh"
+    window.close()
+    window.deleteLater()
+    monkeypatch.delitem(sys.modules, "volumes")
 
 
 @pytest.fixture

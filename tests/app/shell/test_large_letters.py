@@ -1,4 +1,4 @@
-"""Letters of twice the size: no text of a panel or a dialog is clipped."""
+"""No text of a panel or a dialog is clipped, with letters of twice the size too."""
 
 import pytest
 from PySide6.QtCore import Qt
@@ -70,14 +70,25 @@ def lay_out_all(window):
 
 
 def test_no_text_of_a_panel_is_clipped(large_window):
-    window = large_window
+    assert "\n".join(clipped_in_panels(large_window)) == ""
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080)])
+def test_no_text_is_clipped_in_windows_of_usual_sizes(window, size):
+    window.resize(*size)
+    window.docks.reset()
+    assert "\n".join(clipped_in_panels(window)) == ""
+
+
+def clipped_in_panels(window):
+    """Return the clipped texts of each panel."""
     found = set()
     for id in window.docks.ids():
         window.show_panel(id)
         window.refresh()
         lay_out_all(window)
         found |= {f"{id}: {text}" for text in clipped(window)}
-    assert "\n".join(sorted(found)) == ""
+    return sorted(found)
 
 
 def test_no_text_of_a_dialog_is_clipped(large_window, qtbot):

@@ -6,9 +6,9 @@ from collections import Counter
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QScrollArea, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QScrollArea, QSpinBox, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
@@ -127,20 +127,7 @@ def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fre
     assert len(later) < 5
 
 
-# Mnemonics of menus, and shortcuts of actions, which are unique.
-
-
-def letter(action):
-    """Return the mnemonic of an action, "" if it has none."""
-    return QKeySequence.mnemonic(action.text()).toString()
-
-
-def menus(window):
-    """Return the menu bar and all menus and submenus."""
-    found = [window.menuBar()]
-    for menu in found:
-        found += [action.menu() for action in menu.actions() if action.menu() is not None]
-    return found
+# Shortcuts of actions are unique.
 
 
 def test_no_two_actions_have_the_same_keys(window):
@@ -148,20 +135,14 @@ def test_no_two_actions_have_the_same_keys(window):
     assert [key for key, times in Counter(keys).items() if times > 1] == []
 
 
-def test_every_entry_of_a_menu_has_a_mnemonic(window):
-    shown = menus(window)
-    assert len(shown) > 10
-    for menu in shown:
-        letters = [letter(action) for action in menu.actions() if not action.isSeparator()]
-        assert "" not in letters, menu.title()
-
-
-def test_a_mnemonic_stays_when_the_text_of_an_action_changes(window):
-    before = letter(window.action("undo"))
-    window.session.commands.tag("bad", [7])
+def test_letters_cut_after_a_number_was_typed(window):
+    window.show_panel("run")
+    steps = named(window.features["smooth"].panel, QSpinBox, "Iterations per step")
+    steps.setFocus()
+    QTest.keyClick(steps, Qt.Key.Key_Return)
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_C)
     window.refresh()
-    assert window.action("undo").text() == "&Undo tag"
-    assert letter(window.action("undo")) == before
+    assert window.session.view.look.cut.active
 
 
 # Keys of VTK do nothing in the view.

@@ -99,31 +99,6 @@ def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     assert laid(over)[1].place == (1.0, 0.5)
 
 
-@pytest.fixture
-def row(over):
-    """A row of buttons in the middle of the widget below."""
-    row = QWidget(over)
-    row.setGeometry(0, 230, 600, 24)
-    row.show()
-    return row
-
-
-def test_it_avoids_another_overlay_while_that_is_visible(over, row):
-    card, place = laid(over)
-    home = card.geometry()
-    place.keep_off(row)
-    assert card.geometry().getRect() == (492, 262, 100, 230)  # as high as there is room for
-    row.move(0, 300)
-    assert card.geometry().getRect() == (492, 8, 100, 284)
-    row.hide()
-    assert card.geometry() == home
-    row.show()
-    row.setGeometry(0, 230, 400, 24)
-    assert card.geometry() == home  # it does not reach so far
-    row.setGeometry(0, 400, 600, 24)
-    assert card.geometry().getRect() == (492, 92, 100, 300)  # as far away as it has to be
-
-
 def test_the_wheel_reaches_the_widget_below_and_so_do_clicks_outside(over):
     card, _ = laid(over)
     QTest.wheelEvent(card.window().windowHandle(), QPointF(card.geometry().center()), QPoint(0, 120))

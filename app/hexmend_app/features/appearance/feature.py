@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
 from hexmend_app.picture.colours import MATERIAL
@@ -25,9 +25,7 @@ if TYPE_CHECKING:
 class FeatureAppearance(Feature):
     """Draws the session's mesh, and applies the colour panel to its appearance."""
 
-    order = 30
     shows_iterations = True
-    refresh_order = 30  # before features that use what the view has drawn
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -47,7 +45,7 @@ class FeatureAppearance(Feature):
                 id="edges",
                 text=tr("&Edges"),
                 menu="View",
-                part=1,
+                section=1,
                 keys="E",
                 icon="grid",
                 help=tr("Show the edges of the hexes."),
@@ -59,7 +57,7 @@ class FeatureAppearance(Feature):
                 id="shading",
                 text=tr("S&hading"),
                 menu="View",
-                part=1,
+                section=1,
                 help=tr(SHADING),
                 handle=lambda on: view.change(page={"shading": on}),
                 checked=lambda: view.look.page.shading,
@@ -68,7 +66,7 @@ class FeatureAppearance(Feature):
                 id="neutral",
                 text=tr("&Neutral colours"),
                 menu="View",
-                part=1,
+                section=1,
                 help=tr(NEUTRAL),
                 handle=lambda on: view.change(colours={"neutral": on}),
                 checked=lambda: view.look.colours.neutral,
@@ -77,7 +75,7 @@ class FeatureAppearance(Feature):
                 id="colour_by_material",
                 text=tr("Colour by &material"),
                 menu="View",
-                part=1,
+                section=1,
                 help=tr("Colour the hexes by material: blocks, sets, physical volumes or regions of the file."),
                 handle=self._colour_by_material,
                 enabled=lambda: self._has_materials or self._by_material,
@@ -93,7 +91,6 @@ class FeatureAppearance(Feature):
                 title=tr("Look"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.LOOK,
                 tab=tr("Look"),
                 order=20,
                 help=tr("Metric, colour map and range of the colours."),

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 #: Direction, id, text, keys, icon and text in the tool bar.
 _DIRECTIONS = (
     ("iso", "view_iso", "&Isometric", "0", "cube-outline", "Iso"),
-    ("+x", "view_x", "From +&X", "1", "plus-x", "X"),
-    ("+y", "view_y", "From +&Y", "2", "plus-y", "Y"),
-    ("+z", "view_z", "From +&Z", "3", "plus-z", "Z"),
-    ("-x", "view_minus_x", "From −X", "4", "minus-x", ""),
-    ("-y", "view_minus_y", "From −Y", "5", "minus-y", ""),
-    ("-z", "view_minus_z", "From −Z", "6", "minus-z", ""),
+    ("+x", "view_x", "From +&X", "1", "", "+X"),
+    ("+y", "view_y", "From +&Y", "2", "", "+Y"),
+    ("+z", "view_z", "From +&Z", "3", "", "+Z"),
+    ("-x", "view_minus_x", "From −X", "4", "", ""),
+    ("-y", "view_minus_y", "From −Y", "5", "", ""),
+    ("-z", "view_minus_z", "From −Z", "6", "", ""),
 )
 
 #: Step of a roll in degrees.
@@ -36,8 +36,6 @@ _ROLL = 15
 
 class FeatureCamera(Feature):
     """Moves the camera, and saves and restores cameras by name."""
-
-    order = 51
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -98,7 +96,7 @@ class FeatureCamera(Feature):
                 id="parallel",
                 text=tr("&Parallel projection"),
                 menu="View/Camera",
-                part=3,
+                section=3,
                 keys="P",
                 help=tr("Use parallel instead of perspective projection."),
                 handle=lambda on: self.canvas.set_parallel(on),
@@ -133,7 +131,7 @@ class FeatureCamera(Feature):
                 id="keep_camera",
                 text=tr("&Save camera as…"),
                 menu="View/Camera",
-                part=2,
+                section=2,
                 keys="Ctrl+Shift+K",
                 icon="bookmark-plus-outline",
                 help=tr("Save the camera under a name, for views, pictures and the session."),
@@ -178,7 +176,7 @@ class FeatureCamera(Feature):
             id=id,
             text=text,
             menu="View/Camera",
-            part=1,
+            section=1,
             keys=keys,
             help=help,
             handle=handle,

@@ -14,7 +14,7 @@ from hexmend.report.markdown import markdown
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.report.charts import ChartStyle
@@ -34,7 +34,6 @@ _KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)"
 class FeatureCompare(Feature):
     """Runs comparisons, and shows their results and those of all runs in a table and in views."""
 
-    order = 58
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -92,7 +91,6 @@ class FeatureCompare(Feature):
                 title=tr("Compare"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.COMPARE,
                 order=20,
                 help=tr("Results of methods and of all runs in a table and in views, and which of them dominate."),
             ),
@@ -243,7 +241,7 @@ class FeatureCompare(Feature):
         """Return the dialog that saves the table, with the names used last."""
         record = self._comparison.to_data().record()
         names = ["initial", *(row["method"] for row in record["rows"])]
-        file_name = f"{self.host.stem}-comparison.csv"
+        file_name = f"{self.host.default_file_stem}-comparison.csv"
 
         def text(style: ChartStyle) -> str:
             return markdown(record_table(record, style.names, style.title))

@@ -18,7 +18,7 @@ from hexmend_app.features.convergence.curves import Curve, described
 from hexmend_app.features.convergence.point_texts import describe, reason_if_blank
 from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.theme.palette import MUTED, TEXT
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -87,7 +87,7 @@ class ConvergencePlot(QWidget):
         self._blank.setAccessibleName(tr("Why the chart of {title} is empty", title=tr(chart.title)))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        on_grid(QVBoxLayout(self.plot)).addWidget(self._blank)
+        apply_spacing(QVBoxLayout(self.plot)).addWidget(self._blank)
         self.marker = pg.InfiniteLine(0, movable=False)
         self.marker.setZValue(20)
         self.plot.addItem(self.marker, ignoreBounds=True)

@@ -9,7 +9,7 @@ from superqt.utils import QSignalThrottler
 
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.convergence.charts import CHARTS, ChartSettings
 from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
@@ -29,7 +29,6 @@ _PERIOD = 100
 class FeatureConvergence(Feature):
     """Plots the values of all runs and sends clicks in the charts to the timeline."""
 
-    order = 56
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -65,7 +64,6 @@ class FeatureConvergence(Feature):
                 title=tr("Convergence"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.SMOOTH,
                 order=10,
                 help=tr("Convergence of each run, iteration by iteration."),
             ),
@@ -120,7 +118,7 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
-        chart, file_name = self._described(), f"{self.host.stem}-convergence.svg"
+        chart, file_name = self._described(), f"{self.host.default_file_stem}-convergence.svg"
         return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:

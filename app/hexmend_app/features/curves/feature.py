@@ -18,8 +18,6 @@ from hexmend_app.widgets.wording import counted
 class FeatureCurves(Feature):
     """Marks and unmarks curves between nodes of the boundary that the user selects."""
 
-    order = 54
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._start: int | None = None  # first node of the next curve
@@ -33,7 +31,7 @@ class FeatureCurves(Feature):
                 id="mark_curve",
                 text=tr("&Mark curve"),
                 menu="Hex",
-                part=1,
+                section=1,
                 keys="Shift+E",
                 icon="vector-polyline",
                 help=tr("Mark the boundary edges between two selected nodes as a curve, which sliding keeps."),
@@ -46,7 +44,7 @@ class FeatureCurves(Feature):
                 id="unmark_curve",
                 text=tr("&Unmark curve"),
                 menu="Hex",
-                part=1,
+                section=1,
                 help=tr("Remove the marks of the curve through the selected node; undo reverts this."),
                 handle=self.unmark,
                 enabled=lambda: self._editable and self._is_marked,
@@ -56,7 +54,7 @@ class FeatureCurves(Feature):
                 id="unmark_all_curves",
                 text=tr("Unmark all curves"),
                 menu="Hex",
-                part=1,
+                section=1,
                 help=tr("Remove the marks of all curves; undo reverts this."),
                 handle=lambda: self.session.commands.unmark_curves(),
                 enabled=lambda: self._editable and len(self._marked) > 0,

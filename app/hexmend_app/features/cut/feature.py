@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.features.cut.cut_settings import CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 class FeatureCut(Feature):
     """Connects the cut panels and the handles in the view with the appearance."""
 
-    order = 52
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -54,9 +53,9 @@ class FeatureCut(Feature):
                 id="cut",
                 text=tr("&Cut"),
                 menu="View",
-                part=1,
+                section=1,
                 keys="C",
-                icon="cut",
+                icon="contrast-box",
                 help=tr("Cut the mesh open along planes, a box, a slab or a sphere, or by depth."),
                 tool=tr("Cut"),
                 handle=self._switch,
@@ -67,7 +66,7 @@ class FeatureCut(Feature):
                 id="isolate",
                 text=tr("&Isolate hex"),
                 menu="Hex",
-                part=1,
+                section=1,
                 keys="I",
                 help=tr("Show only the selected hex and its neighbours."),
                 handle=lambda: view.isolate((selection.hex,)),
@@ -78,7 +77,7 @@ class FeatureCut(Feature):
                 id="dig",
                 text=tr("&Hide hex"),
                 menu="Hex",
-                part=1,
+                section=1,
                 keys="Delete",
                 help=tr("Hide the selected hex to see behind it. Ctrl+click in the view does the same."),
                 handle=lambda: self._dig(selection.hex),
@@ -89,7 +88,7 @@ class FeatureCut(Feature):
                 id="undig",
                 text=tr("Show &last hidden hex"),
                 menu="Hex",
-                part=1,
+                section=1,
                 keys="Backspace",
                 help=tr("Show the hex that was hidden last."),
                 handle=view.undig_last,
@@ -110,7 +109,6 @@ class FeatureCut(Feature):
                 title=tr("Cut"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.LOOK,
                 tab=tr("Cut"),
                 order=30,
                 help=tr("Cut the mesh open with planes, a box, a slab or a sphere, or by depth."),
@@ -120,7 +118,6 @@ class FeatureCut(Feature):
                 title=tr("Inside"),
                 widget=self.inside,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.LOOK,
                 tab=tr("Cut"),
                 order=31,
                 help=tr("Peel, shrink, isolate and hide hexes."),
@@ -132,7 +129,7 @@ class FeatureCut(Feature):
         canvas.plane_dragged.connect(self._view.drag_plane)
         canvas.box_dragged.connect(self._view.drag_box)
         canvas.sphere_dragged.connect(self._view.drag_sphere)
-        canvas.dug.connect(self._dig)
+        canvas.hide_clicked.connect(self._dig)
 
     def refresh(self) -> None:
         """Show the current cut."""

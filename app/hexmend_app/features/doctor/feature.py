@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.doctor import Finding
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
 from hexmend_app.host import ChangeReport
 from hexmend_app.translation import tr
@@ -15,8 +15,6 @@ from hexmend_app.translation import tr
 
 class FeatureDoctor(Feature):
     """Checks the mesh while the panel is visible, shows the problems, and repairs them."""
-
-    order = 54
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -45,7 +43,7 @@ class FeatureDoctor(Feature):
                 id="doctor",
                 text=tr("&Doctor"),
                 menu="Edit",
-                part=1,
+                section=1,
                 icon="stethoscope",
                 help=tr("Find problems other than quality: numbering, unmerged blocks, duplicates."),
                 handle=lambda: self.host.show_panel("doctor"),
@@ -54,7 +52,7 @@ class FeatureDoctor(Feature):
                 id="repair",
                 text=tr("&Repair mesh"),
                 menu="Edit",
-                part=1,
+                section=1,
                 icon="bandage",
                 help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
                 handle=lambda: self._repair([]),
@@ -70,7 +68,6 @@ class FeatureDoctor(Feature):
                 title=tr("Doctor"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.FIND,
                 order=60,
                 help=tr("Problems other than quality, with their location and remedy."),
             ),

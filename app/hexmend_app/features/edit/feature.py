@@ -11,8 +11,6 @@ from hexmend_app.translation import tr
 class FeatureEdit(Feature):
     """Undoes and redoes changes of the mesh."""
 
-    order = 20
-
     def actions(self) -> Sequence[Action]:
         """Return undo and redo, whose texts name the change."""
         commands = self.session.commands

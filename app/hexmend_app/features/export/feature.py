@@ -34,8 +34,6 @@ class FeatureExport(Feature):
     Films, reports and figure sets are drawn in the background, picture by picture.
     """
 
-    order = 12
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._scene: Scene | None = None  # of the last picture
@@ -56,7 +54,7 @@ class FeatureExport(Feature):
                 id="screenshot",
                 text=tr("Save &picture…"),
                 menu="File",
-                part=1,
+                section=1,
                 keys="Ctrl+P",
                 icon="camera-outline",
                 help=tr("Save a picture of the view in any size."),
@@ -69,7 +67,7 @@ class FeatureExport(Feature):
                 id="report",
                 text=tr("Export &report or figure set…"),
                 menu="File",
-                part=1,
+                section=1,
                 icon="file-document-outline",
                 help=tr(
                     "Save pictures, charts and tables of the mesh before and after: one page, HTML or PDF, or a folder "
@@ -82,7 +80,7 @@ class FeatureExport(Feature):
                 id="film",
                 text=tr("Save fil&m…"),
                 menu="Timeline",
-                part=2,
+                section=2,
                 icon="movie-open-outline",
                 help=tr("Save the iterations of the run as an animation, as shown in the view."),
                 handle=lambda: self.ask("film"),
@@ -151,12 +149,14 @@ class FeatureExport(Feature):
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
-        return PictureSettings(scene, lambda scene: canvas.draw_page(scene).image(), f"{self.host.stem}.png", names)
+        return PictureSettings(
+            scene, lambda scene: canvas.draw_page(scene).image(), f"{self.host.default_file_stem}.png", names
+        )
 
     def _film_settings(self) -> FilmSettings:
         height = round(_FILM_WIDTH * self.canvas.height() / self.canvas.width() / 2) * 2
         scene, record = self.canvas.scene(Page(pixels=(_FILM_WIDTH, height))), self.session.timeline.record
-        return FilmSettings(scene, self._film, self._pictures, record.newest, f"{self.host.stem}.gif")
+        return FilmSettings(scene, self._film, self._pictures, record.newest, f"{self.host.default_file_stem}.gif")
 
     def _report_settings(self) -> list[ReportSettings]:
         def versions() -> list[Version]:
@@ -164,7 +164,7 @@ class FeatureExport(Feature):
 
             return versions_of(self.session)
 
-        kinds, stem, scene = tr("Web page (*.html);;PDF (*.pdf)"), self.host.stem, self._view_scene()
+        kinds, stem, scene = tr("Web page (*.html);;PDF (*.pdf)"), self.host.default_file_stem, self._view_scene()
         report = tr("One page on the mesh before and after: pictures, quality, runs and advice.")
         figures = tr("A folder with pictures, distributions, convergence and a table, with captions and commands.")
         return [
@@ -240,13 +240,15 @@ class FeatureExport(Feature):
         """Write the report to a file, HTML or PDF by its suffix."""
         from hexmend_app.features.export.report_files import report
 
-        self._start(tr("Report"), report(self.session, self._view_scene(), path, self.host.stem), path)
+        self._start(tr("Report"), report(self.session, self._view_scene(), path, self.host.default_file_stem), path)
 
     def write_figures(self, folder: Path) -> None:
         """Write the figure set into a folder, which is created if missing."""
         from hexmend_app.features.export.report_files import figure_set
 
-        self._start(tr("Figure set"), figure_set(self.session, self._view_scene(), folder, self.host.stem), folder)
+        self._start(
+            tr("Figure set"), figure_set(self.session, self._view_scene(), folder, self.host.default_file_stem), folder
+        )
 
     def _start(self, subject: str, steps: Generator[Any], path: Path, count: int | None = None) -> None:
         """Draw picture by picture in the background; the last step writes the file."""

@@ -15,7 +15,7 @@ from hexmend_app.features.export.size_form import SizeForm
 from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
@@ -81,7 +81,7 @@ class PictureSettings(ExportSettings):
 
     def _lay_out(self) -> None:
         captions = QWidget()
-        rows = on_grid(QFormLayout(captions))
+        rows = apply_spacing(QFormLayout(captions))
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
             title = tr("Caption {number}", number=number) if len(self.captions) > 1 else tr("Caption")
@@ -89,7 +89,7 @@ class PictureSettings(ExportSettings):
             rows.addRow(title, line)
         groups = [(tr("Size"), self.size_form), (tr("Camera"), self.camera)]
         groups += [(tr(title), form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
-        column = on_grid(QVBoxLayout(self))
+        column = apply_spacing(QVBoxLayout(self))
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)

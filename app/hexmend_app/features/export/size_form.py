@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QFormLayout, QSpinBox, QWidget
 from hexmend.errors import ParameterError
 from hexmend_app.picture import Page
 from hexmend_app.picture.page import MM_PER_INCH
-from hexmend_app.theme.spacing import on_grid
+from hexmend_app.theme.spacing import apply_spacing
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
@@ -47,7 +47,7 @@ class SizeForm(QWidget):
         set_help(self.dpi, tr("Resolution"), tr("Pixels per inch of paper: 300 to 600 for print."))
         self.dpi.setRange(5, 4800)
         self.dpi.setSuffix(tr(" dpi"))
-        layout = on_grid(QFormLayout(self))
+        layout = apply_spacing(QFormLayout(self))
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addRow(tr("Size"), self.size_box)
         layout.addRow(tr("Resolution"), self.dpi)

@@ -13,8 +13,6 @@ from hexmend_app.widgets.dialogs.questions import show_about
 class FeatureHelp(Feature):
     """Shows the About dialog; the pages of keys and commands belong to the window, which knows all features."""
 
-    order = 90
-
     def actions(self) -> Sequence[Action]:
         """Return the action that shows the About dialog."""
         return (
@@ -22,7 +20,7 @@ class FeatureHelp(Feature):
                 id="about",
                 text=tr("&About Hexmend"),
                 menu="Help",
-                part=1,
+                section=1,
                 help=tr("Show version, licence and sources."),
                 needs_mesh=False,
                 handle=lambda: show_about(self.host.dialog_parent, __version__),

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend.boundary import NodeClass
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.features.hex_inspector.worst_model import write_worst
@@ -34,7 +34,6 @@ _LEFT = {NodeClass.CORNER: "its corner", NodeClass.CURVE: "its curve", NodeClass
 class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
 
-    order = 42
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -122,7 +121,7 @@ class FeatureHexInspector(Feature):
                 id="back",
                 text=tr("&Show all or clear selection"),
                 menu="Hex",
-                part=3,
+                section=3,
                 keys="Esc",
                 help=tr("End measuring or show all hexes; if neither applies, clear the selection."),
                 handle=self._back,
@@ -163,7 +162,6 @@ class FeatureHexInspector(Feature):
                 title=tr("Worst"),
                 widget=self.worst_list,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.FIND,
                 order=1,
                 help=tr("The worst hexes by any metric."),
             ),
@@ -172,7 +170,6 @@ class FeatureHexInspector(Feature):
                 title=tr("Hex"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.FIND,
                 order=2,
                 help=tr("Details of the selected hex and its nodes."),
                 scrolls=True,
@@ -233,8 +230,8 @@ class FeatureHexInspector(Feature):
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None and not self.host.in_front("node"):  # that panel shows the selection as well
-            self.host.offer_panel("hex")
+        if hit is not None and not self.host.is_visible("node"):  # that panel shows the selection as well
+            self.host.raise_if_open("hex")
 
     def _go_to_worst(self, h: int) -> None:
         if self.worst_list.isolates:
@@ -263,7 +260,7 @@ class FeatureHexInspector(Feature):
 
     def ask(self) -> None:
         """Ask for a file and write the list of the worst hexes to it."""
-        path = ask_list(self.host.dialog_parent, self.host.stem)
+        path = ask_list(self.host.dialog_parent, self.host.default_file_stem)
         if path:
             self.save(path)
 

@@ -35,7 +35,6 @@ class FeatureHistogram(Feature):
     that the remaining hexes can be coloured by other metrics.
     """
 
-    order = 40
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -165,7 +164,7 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
-        chart, proposed = self._described(), f"{self.host.stem}-histogram.svg"
+        chart, proposed = self._described(), f"{self.host.default_file_stem}-histogram.svg"
         return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 class FeatureMeasure(Feature):
     """Connects clicks in the view with the measurement, and shows it as text below the view."""
 
-    order = 53
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view
@@ -33,7 +31,7 @@ class FeatureMeasure(Feature):
                 id="measure",
                 text=tr("&Measure"),
                 menu="View",
-                part=1,
+                section=1,
                 keys="R",
                 icon="ruler",
                 help=tr("Click points in the view: two give a distance, three an angle; Esc ends."),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.picture.displacement import Displacement
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
@@ -14,7 +14,6 @@ from hexmend_app.translation import tr
 class FeatureMovement(Feature):
     """Shows the displacement of the nodes since a reference state."""
 
-    order = 57
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -34,7 +33,6 @@ class FeatureMovement(Feature):
                 title=tr("Movement"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.LOOK,
                 tab=tr("Look"),
                 order=22,
                 help=tr("Displacement of the nodes and change of quality since a reference state."),

@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QTimer
 
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelGroup, PanelPlace, StatePart
+from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.visibility import Isolate
@@ -34,8 +34,6 @@ class FeatureNodeStep(Feature):
 
     A step is computed and drawn only while the panel is in front.
     """
-
-    order = 43
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -61,7 +59,7 @@ class FeatureNodeStep(Feature):
                 id="explain_node",
                 text=tr("&Explain node step"),
                 menu="Hex",
-                part=2,
+                section=2,
                 keys="D",
                 help=tr("Explain the step of the selected method at the selected node, or at a node of the worst hex."),
                 handle=self._explain_node,
@@ -76,12 +74,14 @@ class FeatureNodeStep(Feature):
                 id=id,
                 text=tr(text),
                 menu="Smooth",
-                part=3,
+                section=3,
                 keys=keys,
                 help=tr(help),
                 handle=partial(self._advance, amount),
                 enabled=lambda: not self._reason_for_no_sweep(),
-                face=lambda label=label, help=help: ActionFace(tr(label), "", self._reason_for_no_sweep() or tr(help)),
+                appearance=lambda label=label, help=help: ButtonAppearance(
+                    tr(label), "", self._reason_for_no_sweep() or tr(help)
+                ),
             )
 
     def states(self) -> Sequence[StatePart]:
@@ -100,7 +100,6 @@ class FeatureNodeStep(Feature):
                 title=tr("Node"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.SMOOTH,
                 order=40,
                 help=tr("Step of the selected method at the selected node."),
             ),

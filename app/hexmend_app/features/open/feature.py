@@ -33,8 +33,6 @@ _CHECKED = 300_000
 class FeatureOpen(Feature):
     """Opens meshes, shows the progress and remembers the recent files."""
 
-    order = 10
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._document, self._opener = host.session.document, host.session.opener
@@ -94,7 +92,7 @@ class FeatureOpen(Feature):
 
     def open(self, path: str | Path) -> None:
         """Open a mesh, after asking about unsaved changes."""
-        if self.host.may_leave():
+        if self.host.confirm_close():
             self.session.commands.open(path)
 
     def ask(self) -> None:
@@ -140,14 +138,14 @@ class FeatureOpen(Feature):
             self.recent.add(path)
 
     def _show_card(self) -> None:
-        """Show what was opened, until it is dismissed if something was changed or is wrong with it."""
+        """Show what was opened, until the first action if something was changed or is wrong with it."""
         state, host = self._document.now, self.host
         findings = self.session.mesh_checker.of(state.mesh) or ()
         title, text = card(self._document.name, state, findings)
         choices = [(tr("Show worst"), lambda: host.action("next_worst").trigger())]
         choices += [(tr("Doctor"), partial(host.show_panel, "doctor"))] if findings else []
         stays = bool(state.mesh.notes or findings)
-        host.messages.show_result(title, text, choices, 0 if stays else _CARD_MS)
+        host.messages.show_card(title, text, choices, 0 if stays else _CARD_MS)
         self._carded = state.mesh, title
         if state.mesh.n_hexes <= _CHECKED:
             self.session.mesh_checker.ask(state.mesh)
@@ -174,7 +172,7 @@ class FeatureOpen(Feature):
     def _locate(self, missing: MissingMesh) -> None:
         """Ask for the mesh file of a picture and open it with the picture's camera and appearance."""
         path = ask_mesh(self.host.dialog_parent)
-        if path and self.host.may_leave():
+        if path and self.host.confirm_close():
             self._opener.open(path, picture=missing)
 
     def _on_cancelled(self, path: Path) -> None:

@@ -11,7 +11,7 @@ from hexmend.advice import Advice, Suggestion
 from hexmend.quality import Summary
 from hexmend.quality.file_ids import hex_ids
 from hexmend.run.recipe import Stage
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.translation import tr
@@ -25,8 +25,6 @@ _RUNNING = "A run is in progress. When it ends, this panel shows why, and what t
 
 class FeatureOutcome(Feature):
     """Explains the end of the run in the timeline, shows its bad hexes, and applies suggestions."""
-
-    order = 55
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -49,7 +47,7 @@ class FeatureOutcome(Feature):
                 id="why",
                 text=tr("Run summar&y"),
                 menu="Smooth",
-                part=1,
+                section=1,
                 keys="Y",
                 icon="help-circle-outline",
                 help=tr("Show why the run stopped, the remaining invalid hexes and what to try next."),
@@ -66,7 +64,6 @@ class FeatureOutcome(Feature):
                 title=tr("Run summary"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.SMOOTH,
                 tab=tr("Convergence"),
                 order=50,
                 help=tr("Why the run stopped and what to try next."),

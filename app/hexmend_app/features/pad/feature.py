@@ -14,8 +14,6 @@ from hexmend_app.translation import tr
 class FeaturePad(Feature):
     """Asks for the options of a layer, and pads the mesh in the background."""
 
-    order = 54
-
     def __init__(self, host: Host):
         super().__init__(host)
         ChangeReport(
@@ -36,7 +34,7 @@ class FeaturePad(Feature):
                 id="pad",
                 text=tr("&Pad…"),
                 menu="Edit",
-                part=1,
+                section=1,
                 icon="layers-plus",
                 help=tr("Insert a layer of hexes under the boundary to free locked hexes. Can be undone."),
                 handle=self.ask,

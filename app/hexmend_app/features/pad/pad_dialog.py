@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -59,7 +59,7 @@ class PadDialog(QDialog):
         self.thickness.setSpecialValueText(tr("Automatic"))
         text = tr("Thickness of the layer in mesh units. Automatic: best for the quality of the hexes.")
         set_help(self.thickness, tr("Thickness"), text)
-        form = on_grid(QFormLayout())
+        form = apply_spacing(QFormLayout())
         form.addRow(tr("Where"), self.where)
         form.addRow(tr("Rings"), self.rings)
         form.addRow(tr("Thickness"), self.thickness)

@@ -24,8 +24,6 @@ class FeaturePyvistaWindow(Feature):
         Plotters of the open windows.
     """
 
-    order = 54
-
     def __init__(self, host: Host):
         super().__init__(host)
         self.plotters: list[BackgroundPlotter] = []
@@ -60,7 +58,7 @@ class FeaturePyvistaWindow(Feature):
             from hexmend_app.features.pyvista_window.shown_mesh import open_plotter
         except ImportError as error:
             raise InstallationError(f"pyvistaqt cannot be imported ({error}): {install_hint('app')}") from None
-        plotter = open_plotter(f"{self.host.stem} – PyVista", self.canvas.viewport, self.canvas.up)
+        plotter = open_plotter(f"{self.host.default_file_stem} – PyVista", self.canvas.viewport, self.canvas.up)
         self.plotters.append(plotter)
         plotter.app_window.signal_close.connect(partial(self.plotters.remove, plotter))
 

@@ -18,7 +18,6 @@ from hexmend_app.widgets.overlay import Overlay
 class FeatureQuality(Feature):
     """Shows the quality of the mesh as it was opened and as it is now."""
 
-    order = 41
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -35,7 +34,7 @@ class FeatureQuality(Feature):
                 id="key_figures",
                 text=tr("&Key figures"),
                 menu="View",
-                part=3,
+                section=3,
                 help=tr(
                     "Show inverted and invalid hexes, q min, q mean and scaled Jacobian min in the view. Side views "
                     "have captions."
@@ -47,7 +46,7 @@ class FeatureQuality(Feature):
                 id="all_figures",
                 text=tr("All &quality figures"),
                 menu="View",
-                part=3,
+                section=3,
                 help=tr("Show all quality figures below the key figures, at the start and now."),
                 handle=lambda on: self.bar.all_button.setChecked(on),
                 checked=self.bar.all_button.isChecked,

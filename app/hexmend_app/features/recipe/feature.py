@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
@@ -18,7 +18,6 @@ from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
 class FeatureRecipe(Feature):
     """Edits, loads, saves and runs a recipe, and marks the active stage."""
 
-    order = 27
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -39,7 +38,7 @@ class FeatureRecipe(Feature):
                 id="recipe_run",
                 text=tr("R&un recipe"),
                 menu="Smooth",
-                part=2,
+                section=2,
                 keys="Ctrl+Shift+F5",
                 help=tr("Run the stages of the recipe in sequence, as one run."),
                 handle=self.run,
@@ -49,7 +48,7 @@ class FeatureRecipe(Feature):
                 id="recipe_load",
                 text=tr("&Load recipe…"),
                 menu="Smooth",
-                part=2,
+                section=2,
                 help=tr("Load a recipe: methods that run in sequence."),
                 handle=self.ask_load,
                 enabled=lambda: self.session.editable,
@@ -58,7 +57,7 @@ class FeatureRecipe(Feature):
                 id="recipe_save",
                 text=tr("Sa&ve recipe…"),
                 menu="Smooth",
-                part=2,
+                section=2,
                 help=tr("Save the recipe as a TOML file."),
                 handle=self.ask_save,
                 enabled=lambda: bool(self._draft.stages),
@@ -73,7 +72,6 @@ class FeatureRecipe(Feature):
                 title=tr("Recipe"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.SMOOTH,
                 tab=tr("Smooth"),
                 order=11,
                 help=tr("Methods that run in sequence, as one run."),

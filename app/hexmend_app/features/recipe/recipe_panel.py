@@ -24,7 +24,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend_app.feature import ChangeTracker
 from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_setup import RunSetup
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import label_of, short_number
@@ -117,7 +117,7 @@ class RecipePanel(QWidget):
     def _lay_out(self) -> None:
         head = fill(QHBoxLayout(), labelled(tr("Title"), self._title), (self._title, 1), spacing=4)
         edit = fill(QHBoxLayout(), (self._add, 1), self._replace, self._up, self._down, self._remove, spacing=4)
-        foot = on_grid(QGridLayout())
+        foot = apply_spacing(QGridLayout())
         for column, button in enumerate((self.run_button, self._load)):
             button.setMinimumWidth(button.minimumSizeHint().width())
             foot.addWidget(button, 0, column)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton, QSplitter, QVBoxLayout, QWidget
 
 from hexmend.report.documents import write_text
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.reproduce.console import ConsolePanel
 from hexmend_app.features.reproduce.script import script_of
 from hexmend_app.picture import Page, Scene
@@ -22,8 +22,6 @@ from hexmend_app.widgets.dialogs.questions import ask_script
 
 class FeatureReproduce(Feature):
     """Shows what made the mesh as a Python script, copies and saves it, and runs Python commands."""
-
-    order = 58
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -48,7 +46,7 @@ class FeatureReproduce(Feature):
                 id="script",
                 text=tr("Save scr&ipt…"),
                 menu="File",
-                part=1,
+                section=1,
                 icon="script-text-outline",
                 help=tr("Save the changes of the mesh as a Python script."),
                 handle=self.ask,
@@ -63,7 +61,6 @@ class FeatureReproduce(Feature):
                 title=tr("Reproduce"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
-                group=PanelGroup.REPORT,
                 order=70,
                 help=tr("The changes of the mesh as a Python script, and a Python console."),
             ),
@@ -98,7 +95,7 @@ class FeatureReproduce(Feature):
 
     def ask(self) -> None:
         """Ask for a path and save the script."""
-        path = ask_script(self.host.dialog_parent, self.host.stem)
+        path = ask_script(self.host.dialog_parent, self.host.default_file_stem)
         if path:
             self.save(path)
 

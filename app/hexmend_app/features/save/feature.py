@@ -20,8 +20,6 @@ from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_sessi
 class FeatureSave(Feature):
     """Saves the mesh, and asks before unsaved changes are lost."""
 
-    order = 11
-
     def __init__(self, host: Host):
         super().__init__(host)
         self.visible = VisibleSaver(host)
@@ -38,7 +36,7 @@ class FeatureSave(Feature):
                 id="save",
                 text=tr("&Save mesh as…"),
                 menu="File",
-                part=1,
+                section=1,
                 keys="Ctrl+S",
                 icon="content-save-outline",
                 help=tr("Save the displayed mesh to a file."),
@@ -50,7 +48,7 @@ class FeatureSave(Feature):
                 id="save_visible",
                 text=tr("Save &visible hexes as…"),
                 menu="File",
-                part=1,
+                section=1,
                 help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
                 handle=lambda: self.visible.ask(self.canvas.viewport),
                 enabled=self._can_save_visible,
@@ -61,7 +59,7 @@ class FeatureSave(Feature):
         """Wait for no file any more."""
         self.visible.close()
 
-    def may_leave(self) -> bool:
+    def confirm_close(self) -> bool:
         """Wait for a save in progress and ask about unsaved changes; return True if leaving is allowed."""
         session = self.session
         session.end_previews()
@@ -91,7 +89,9 @@ class FeatureSave(Feature):
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
         source = self.session.document.path
-        path = ask_target(self.host.dialog_parent, self.host.stem, source.suffix if source is not None else ".vtu")
+        path = ask_target(
+            self.host.dialog_parent, self.host.default_file_stem, source.suffix if source is not None else ".vtu"
+        )
         if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
             self.session.commands.save_in_background(path, rewrite)
 
@@ -112,7 +112,7 @@ class FeatureSave(Feature):
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
         ask = ask_session if self._in_session else ask_target
-        path = ask(self.host.dialog_parent, self.host.stem)
+        path = ask(self.host.dialog_parent, self.host.default_file_stem)
         return bool(path) and self.save_and_wait(path)
 
     def _on_began(self, saving: SaveTask) -> None:

@@ -46,7 +46,9 @@ class VisibleSaver(QObject):
     def ask(self, viewport: Viewport) -> None:
         """Ask for a path and save the hexes that a view shows."""
         source = self._host.session.document.path
-        path = ask_visible(self._host.dialog_parent, self._host.stem, source.suffix if source is not None else ".vtu")
+        path = ask_visible(
+            self._host.dialog_parent, self._host.default_file_stem, source.suffix if source is not None else ".vtu"
+        )
         if path:
             self.save(Path(path), viewport)
 

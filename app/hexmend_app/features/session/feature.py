@@ -22,8 +22,6 @@ class FeatureSession(Feature):
         Inactive until `program_started` is called.
     """
 
-    order = 12
-
     def __init__(self, host: Host):
         super().__init__(host)
         self.recovery = Recovery(self.session, self)
@@ -40,7 +38,7 @@ class FeatureSession(Feature):
                 id="save_session",
                 text=tr("Save sess&ion as…"),
                 menu="File",
-                part=1,
+                section=1,
                 keys="Ctrl+Shift+S",
                 icon="content-save-all-outline",
                 help=tr("Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later."),
@@ -76,7 +74,7 @@ class FeatureSession(Feature):
 
     def ask(self) -> None:
         """Ask for a path and save the session in the background."""
-        path = ask_session(self.host.dialog_parent, self.host.stem)
+        path = ask_session(self.host.dialog_parent, self.host.default_file_stem)
         if path:
             self.session.commands.save_in_background(path)
 
@@ -85,7 +83,7 @@ class FeatureSession(Feature):
         self.host.messages.show_offer(*recovery_offer(crashed), buttons)
 
     def _recover(self, crashed: RecoveredSession) -> None:
-        if crashed in self.recovery.recoverable and self.host.may_leave():
+        if crashed in self.recovery.recoverable and self.host.confirm_close():
             self.recovery.recover(crashed)
 
     def _discard(self, crashed: RecoveredSession) -> None:

@@ -22,7 +22,6 @@ STEP = 0.02
 class FeatureSideViews(Feature):
     """Shows states of the mesh in side views."""
 
-    order = 56
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -38,7 +37,7 @@ class FeatureSideViews(Feature):
                 id="beside",
                 text=tr("&Keep a copy in a side view"),
                 menu="Compare",
-                part=1,
+                section=1,
                 keys="V",
                 icon="view-split-vertical",
                 help=tr("Keep a copy of the current mesh in a side view, to compare later meshes with it."),
@@ -50,7 +49,7 @@ class FeatureSideViews(Feature):
                 id="wipe",
                 text=tr("&Wipe"),
                 menu="Compare",
-                part=1,
+                section=1,
                 keys="W",
                 icon="compare",
                 help=tr("Overlay two views, separated by an edge that can be dragged."),
@@ -62,7 +61,7 @@ class FeatureSideViews(Feature):
                 id="wipe_left",
                 text=tr("Move wipe &left"),
                 menu="Compare",
-                part=1,
+                section=1,
                 keys="[",
                 help=tr("Show more of the right view."),
                 handle=lambda: self._step_wipe(-1),
@@ -72,7 +71,7 @@ class FeatureSideViews(Feature):
                 id="wipe_right",
                 text=tr("Move wipe ri&ght"),
                 menu="Compare",
-                part=1,
+                section=1,
                 keys="]",
                 help=tr("Show more of the left view."),
                 handle=lambda: self._step_wipe(1),
@@ -82,7 +81,7 @@ class FeatureSideViews(Feature):
                 id="close_views",
                 text=tr("Close &other views"),
                 menu="Compare",
-                part=1,
+                section=1,
                 keys="Ctrl+W",
                 help=tr("Show only the current mesh."),
                 handle=views.close_all,

@@ -14,12 +14,11 @@ from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import (
     Action,
-    ActionFace,
+    ButtonAppearance,
     ChangeTracker,
     Feature,
     Host,
     Panel,
-    PanelGroup,
     PanelPlace,
     StatePart,
 )
@@ -41,7 +40,6 @@ _SCALED_JACOBIAN = "scaled-jacobian"
 class FeatureSmooth(Feature):
     """Starts, pauses and stops runs, and shows their progress."""
 
-    order = 25
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -70,7 +68,7 @@ class FeatureSmooth(Feature):
                 help=tr("Run the selected method; pause or resume a run."),
                 handle=self.run_or_pause,
                 enabled=lambda: self._ready() and self._state().run,
-                face=self._run_face,
+                appearance=self._run_face,
             ),
             Action(
                 id="step",
@@ -112,7 +110,7 @@ class FeatureSmooth(Feature):
                 id="every_iteration",
                 text=tr("Show e&very iteration"),
                 menu="Smooth",
-                part=3,
+                section=3,
                 help=tr("Show every iteration; the run waits until it is drawn."),
                 handle=self._show_every,
                 checked=lambda: self._smoothing.shows_every,
@@ -122,7 +120,7 @@ class FeatureSmooth(Feature):
                 id="copy_command",
                 text=tr("&Copy as command"),
                 menu="Smooth",
-                part=3,
+                section=3,
                 help=tr(
                     "Copy the hexmend smooth command with this method, its parameters, limits and rules of motion."
                 ),
@@ -150,7 +148,6 @@ class FeatureSmooth(Feature):
                 title=tr("Smooth"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.SMOOTH,
                 tab=tr("Smooth"),
                 order=10,
                 help=tr("The smoothing method, its parameters and its stopping criteria."),
@@ -213,9 +210,9 @@ class FeatureSmooth(Feature):
         moved = document.is_open and document.now is not document.start
         return STATES["finished" if phase is Phase.IDLE and moved else phase.value]
 
-    def _run_face(self) -> ActionFace:
+    def _run_face(self) -> ButtonAppearance:
         state = self._state()
-        return ActionFace(tr(state.text), state.icon, tr(state.help))
+        return ButtonAppearance(tr(state.text), state.icon, tr(state.help))
 
     def _ready(self) -> bool:
         return self.session.document.is_open and not self.session.opener.busy
@@ -287,7 +284,7 @@ class FeatureSmooth(Feature):
     def _copy_command(self, stage: Stage) -> None:
         """Copy the command that runs a stage on the file of the mesh."""
         path = self.session.document.path
-        output = path.with_name(f"{self.host.stem}-smoothed{path.suffix or '.vtu'}")
+        output = path.with_name(f"{self.host.default_file_stem}-smoothed{path.suffix or '.vtu'}")
         command = smooth_command(stage, str(path), str(output), RunOptions(self.session.run_setup.rules))
         QGuiApplication.clipboard().setText(command)
         self.host.messages.show_info(tr("Copied: {command}", command=command))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelGroup, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.layer_switch import ordered_layers
 from hexmend_app.translation import tr
@@ -16,7 +16,6 @@ from hexmend_app.translation import tr
 class FeatureStructure(Feature):
     """Shows and hides the layers of the mesh structure, with counts."""
 
-    order = 53
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -50,7 +49,6 @@ class FeatureStructure(Feature):
                 title=tr("Show"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                group=PanelGroup.LOOK,
                 tab=tr("Look"),
                 order=21,
                 help=tr("Edges, nodes and surfaces that are drawn over the mesh."),

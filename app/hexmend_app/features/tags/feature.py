@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 class FeatureTags(Feature):
     """Adds, removes and renames tags of hexes."""
 
-    order = 54
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -44,7 +43,7 @@ class FeatureTags(Feature):
                 id="tag",
                 text=tr("&Tag hex"),
                 menu="Hex",
-                part=2,
+                section=2,
                 keys="T",
                 icon="tag-outline",
                 help=tr("Add the tag named below the view to the selected hex, or remove it; saved with the mesh."),
@@ -55,7 +54,7 @@ class FeatureTags(Feature):
                 id="tags",
                 text=tr("Ta&gs"),
                 menu="Hex",
-                part=2,
+                section=2,
                 help=tr("Show a bar that tags, isolates, renames and removes named groups of hexes."),
                 handle=lambda on: self.strip.setVisible(on),
                 checked=lambda: not self.strip.isHidden(),

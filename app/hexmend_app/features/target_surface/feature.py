@@ -19,8 +19,6 @@ from hexmend_app.widgets.dialogs.questions import ask_surface
 class FeatureTargetSurface(Feature):
     """Lets the boundary slide on the surface of a file, and on itself again."""
 
-    order = 27
-
     def actions(self) -> Sequence[Action]:
         """Return the actions that choose a surface and remove it."""
         return (
@@ -28,7 +26,7 @@ class FeatureTargetSurface(Feature):
                 id="slide_on_surface",
                 text=tr("Slide on surface o&f file…"),
                 menu="Smooth",
-                part=3,
+                section=3,
                 help=tr("Let the boundary slide on a surface from a file, such as an STL file; undo reverts this."),
                 handle=self.ask,
                 enabled=lambda: self.session.editable,
@@ -37,7 +35,7 @@ class FeatureTargetSurface(Feature):
                 id="slide_on_boundary",
                 text=tr("Slide on own &boundary"),
                 menu="Smooth",
-                part=3,
+                section=3,
                 help=tr("Remove the surface of the file, so that the boundary slides on itself; undo reverts this."),
                 handle=self._remove,
                 enabled=lambda: self.session.editable and self.session.document.now.mesh.target is not None,

@@ -21,8 +21,6 @@ _TEXTS = {
 class FeatureTheme(Feature):
     """Switches the theme, and follows changes of the desktop's theme."""
 
-    order = 60
-
     def __init__(self, host: Host):
         super().__init__(host)
         QGuiApplication.styleHints().colorSchemeChanged.connect(theme_choice.apply_theme)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ButtonAppearance, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
@@ -28,7 +28,6 @@ _NAMED = 3
 class FeatureTimeline(Feature):
     """Navigates in the iterations of runs, and starts branches."""
 
-    order = 26
     shows_iterations = True
 
     def __init__(self, host: Host):
@@ -55,13 +54,13 @@ class FeatureTimeline(Feature):
                 id=f"iteration_{name}",
                 text=tr(text),
                 menu="Timeline",
-                part=int(name == "branch"),
+                section=int(name == "branch"),
                 keys=keys,
                 icon=icon,
                 help=tr(help),
                 handle=handle,
                 enabled=lambda name=name: self._timeline.record is not None and self._can()[name],
-                face=self._play_face if name == "play" else None,
+                appearance=self._play_appearance if name == "play" else None,
             )
             for (name, text, keys, icon, help), handle in zip(_STEPS, self._handles(), strict=True)
         ]
@@ -78,7 +77,7 @@ class FeatureTimeline(Feature):
                 id="timeline",
                 title=tr("Timeline"),
                 widget=self.panel,
-                place=PanelPlace.BELOW,
+                place=PanelPlace.BAR,
                 help=tr("Navigate through the iterations of a run."),
             ),
         )
@@ -124,10 +123,10 @@ class FeatureTimeline(Feature):
             "branch": not self.session.opener.busy,
         }
 
-    def _play_face(self) -> ActionFace:
+    def _play_appearance(self) -> ButtonAppearance:
         if self._timeline.playing:
-            return ActionFace(tr("Pause"), "pause", tr("Pause the playback."))
-        return ActionFace(tr("Play"), "play", tr("Play the iterations."))
+            return ButtonAppearance(tr("Pause"), "pause", tr("Pause the playback."))
+        return ButtonAppearance(tr("Play"), "play", tr("Play the iterations."))
 
     def _handles(self) -> tuple[Callable[[], object], ...]:
         """Return the functions of the actions, in their order."""

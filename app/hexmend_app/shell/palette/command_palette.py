@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QBrush, QColor, QIcon, QKeyEvent, QPainter, QPaintEvent, QPixmap
+from PySide6.QtGui import QBrush, QColor, QKeyEvent
 from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
-from hexmend_app.theme.palette import GREY, MUTED
+from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note, on_theme_change, set_help
 from hexmend_app.translation import tr
@@ -40,6 +40,7 @@ class CommandPalette(QDialog):
 
     def __init__(self, entries: Iterable[PaletteEntry], parent: QWidget | None = None):
         super().__init__(parent)
+        self.setObjectName("command_palette")
         self.setWindowTitle(tr("Commands"))
         self.setWindowFlag(Qt.WindowType.FramelessWindowHint)
         self._entries = list(entries)
@@ -65,13 +66,6 @@ class CommandPalette(QDialog):
         self._list.itemClicked.connect(self._run_entry)
         on_theme_change(self, self._fill)
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw a border, as the window has no frame."""
-        super().paintEvent(event)
-        painter = QPainter(self)
-        painter.setPen(QColor(str(GREY)))
-        painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
-
     def titles(self) -> list[str]:
         """Return the titles of the listed entries, best match first."""
         return [entry.title for entry in self._found]
@@ -90,16 +84,9 @@ class CommandPalette(QDialog):
             self._found[at].run()
 
 
-def _no_icon() -> QIcon:
-    """Return an empty icon, which aligns titles without an icon with the others."""
-    empty = QPixmap(16, 16)
-    empty.fill(Qt.GlobalColor.transparent)
-    return QIcon(empty)
-
-
 def _item(entry: PaletteEntry) -> QTreeWidgetItem:
     item = QTreeWidgetItem([entry.title, entry.keys])
-    item.setIcon(0, entry.icon if not entry.icon.isNull() else _no_icon())
+    item.setIcon(0, entry.icon)
     item.setToolTip(0, entry.help)
     item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
     item.setForeground(1, QBrush(QColor(str(MUTED))))

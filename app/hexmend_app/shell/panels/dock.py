@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
-from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDockWidget, QWidget
 
-from hexmend_app.feature import PanelGroup, PanelPlace
+from hexmend_app.feature import PanelPlace
 
 
 class Dock(QDockWidget):
@@ -15,41 +13,28 @@ class Dock(QDockWidget):
     Qt keeps docks behind other tabs visible, outside the window: Tab reaches them, and their panels are refreshed.
     Therefore the page is hidden unless the dock is in front.
 
-    Signals
-    -------
-    closed
-        The user closed it.
-
     Parameters
     ----------
     name : str
-        Object name, under which its place is saved.
+        Object name, under which Qt saves its place.
     title, help : str
+    place : PanelPlace
+        Default place.
 
     Attributes
     ----------
-    place : PanelPlace
-        Default place.
-    group : PanelGroup
-        Of its panels.
-    is_open : bool
-        The user has not closed it; it may be hidden together with others.
     in_front : bool
         It is visible, not behind another tab.
     """
 
-    closed = Signal()
-
-    def __init__(self, name: str, title: str, help: str, parent: QWidget | None = None):
+    def __init__(self, name: str, title: str, help: str, place: PanelPlace, parent: QWidget | None = None):
         super().__init__(title, parent)
         self.setObjectName(name)
         self.setToolTip(help)
-        self.place, self.group = PanelPlace.TOOLS, PanelGroup.FIND
-        self._no_title = QWidget()  # as title bar: no title
-        self.is_open = True
+        self.place = place
         self.in_front = False
+        self._no_title = QWidget()  # as title bar: no title
         self.visibilityChanged.connect(self.set_in_front)
-        self.topLevelChanged.connect(self._on_floating)
 
     def set_page(self, page: QWidget) -> None:
         """Set the page, which keeps its space in the layout while it is hidden."""
@@ -69,14 +54,3 @@ class Dock(QDockWidget):
         self.in_front = in_front
         if self.widget() is not None:
             self.widget().setVisible(in_front)
-
-    def _on_floating(self, floating: bool) -> None:
-        if floating:
-            self.show_title(True)  # by which Qt makes the window anew
-            self.set_in_front(self.isVisible())
-
-    def closeEvent(self, event: QCloseEvent) -> None:
-        """Record that the user closed the dock, rather than hid it with others."""
-        super().closeEvent(event)
-        self.is_open = False
-        self.closed.emit()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QWidget
 
 from hexmend_app.translation import tr
@@ -20,20 +19,11 @@ class HexCounts(ElidingLabel):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAccessibleName(tr("Counts"))
-        self._longest = ""
-
-    def sizeHint(self) -> QSize:
-        """Return the size for the longest text of the mesh, so that the slider next to it stays in place."""
-        return QSize(self.fontMetrics().horizontalAdvance(self._longest), super().sizeHint().height())
+        self.setContentsMargins(8, 0, 8, 0)
 
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        selected = tr("hex {hex:,}: inverted", hex=summary.hexes)
-        longest = f"{_counts_text(summary.hexes, summary.hexes)}  ·  {selected}"
-        if longest != self._longest:
-            self._longest = longest
-            self.updateGeometry()
         text = _counts_text(summary.hexes, summary.invalid)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
         self.setToolTip(self.text())

@@ -74,7 +74,7 @@ def _load(task: Task) -> None:
     """Import the 3D modules and the features that draw a mesh."""
     import hexmend_app.canvas.canvas
     import hexmend_app.state.session.session  # noqa: F401
-    from hexmend_app.shell.features import feature_class, first_names
+    from hexmend_app.shell.features import FIRST, feature_class
 
-    for name in first_names():
+    for name in FIRST:
         feature_class(name)

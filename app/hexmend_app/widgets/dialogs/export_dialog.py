@@ -23,7 +23,7 @@ from hexmend.errors import ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
 from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, ExportedChart, chart_png
-from hexmend_app.theme.spacing import fill, on_grid
+from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.preview import Preview
@@ -75,7 +75,7 @@ class ExportDialog(SaveDialog):
         """Lay out a preview next to forms, title and names."""
         settings = QWidget()
         column = fill(QVBoxLayout(settings), *forms)
-        rows = on_grid(QFormLayout())
+        rows = apply_spacing(QFormLayout())
         rows.addRow(tr("Title"), self.title)
         if self.names:
             rows.addRow(QLabel(tr("<b>Names</b>")))

@@ -32,8 +32,8 @@ def entries(menu):
 def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):
     cameras, proposed = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *arguments: proposed.append(arguments[4]) or (" front ", True))
-    window.action("keep_camera").trigger()
     first = Camera.at(window.canvas.pose)
+    window.action("keep_camera").trigger()
     assert cameras.all == {"front": first}
     window.canvas.look_along("+x")
     for answer in (QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes):

@@ -77,7 +77,7 @@ def test_changes_on_reading_are_remembered(window, panel):
 def test_inverted_hexes_are_named_with_what_helps(window, panel):
     assert "27 hexes are inverted: " in panel.text.text()
     panel.text.linkActivated.emit("smooth")
-    assert window.in_front("run")
+    assert window.is_visible("run")
     window.session.document.replace(State.of(make("cube", size=27)), None)
     window.refresh()
     assert "inverted" not in panel.text.text()

@@ -186,7 +186,7 @@ def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
     assert window.session.selection.node in mesh.hexes[window.session.selection.hex]
     assert mesh.free[step.node]
     np.testing.assert_array_equal(step.after, explain(mesh, METHODS["local-sd"](), step.node).after)
-    assert window.in_front("node")
+    assert window.is_visible("node")
     words = texts(window)
     assert f"Node {step.node}" in words
     assert "Local steepest descent. Will be moved." in words
@@ -201,7 +201,7 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     wait_for_text(window, qtbot, "Click a hex in the view")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
     assert window.session.selection.hex is not None
-    assert window.in_front("node")  # a click does not bring another panel to the front
+    assert window.is_visible("node")  # a click does not bring another panel to the front
     wait_for_text(window, qtbot, "is on the boundary: no method moves it")
     choose(window, "local-sd", boundary="slide")
     wait_for_text(window, qtbot, "is on the sliding boundary: only steps of interior nodes are shown")

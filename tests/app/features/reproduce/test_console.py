@@ -23,7 +23,7 @@ def console(window, qtbot):
 
 
 def test_it_opens_and_evaluates(window, console):
-    assert window.in_front("reproduce")
+    assert window.is_visible("reproduce")
     mesh = window.session.document.now.mesh
     assert f"\n{mesh.n_hexes}" in console.enter_and_wait("mesh.n_hexes")
     assert "\n'hexmend'" in console.enter_and_wait("hx.__name__")

@@ -117,7 +117,7 @@ def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, path, tmp_pa
     monkeypatch.setattr(
         QFileDialog, "getSaveFileName", lambda *given: asked.append(given[2:4]) or (str(tmp_path / "new"), given[3])
     )
-    assert window.may_leave()
+    assert window.confirm_close()
     ((proposed, kind),) = asked
     assert proposed.endswith("work.hexmend")
     assert kind == "Hexmend session (*.hexmend)"

@@ -152,11 +152,11 @@ def test_panels_and_their_controls_have_entries_that_show_and_focus_them(panel, 
     assert list(entries) == ["Panel: Boxes", "Panel: Other", "In Boxes: Folded box", "In Boxes: Plain box"]
     entries["In Boxes: Folded box"].run()
     box = next(one for one in panel.widget.findChildren(QCheckBox) if one.text() == "Folded")
-    assert docks.in_front("boxes")
+    assert docks.is_visible("boxes")
     assert box.isVisible()
     assert box.hasFocus()
     entries["Panel: Other"].run()
-    assert docks.in_front("other")
+    assert docks.is_visible("other")
 
 
 def test_choosing_a_method_keeps_its_last_parameters(host):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hexmend_app.shell.features import feature_names, first_names
+from hexmend_app.shell.features import FIRST, feature_names
 from hexmend_app.shell.start.window_start import WindowStart
 
 pytestmark = pytest.mark.slow
@@ -19,8 +19,7 @@ def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbo
     )
     with qtbot.waitSignal(window.ready):
         pass
-    assert drawn_by[0] == ("open", "appearance", "camera")
-    assert set(first_names()) == set(drawn_by[0])
+    assert drawn_by[0] == FIRST
     assert set(window.features) == set(feature_names())
     assert window.session.document.path == mesh_file
     qtbot.waitUntil(lambda: window.canvas.isVisible())
