@@ -1,4 +1,4 @@
-"""Take the pictures of performance-window.md: ten million hexes in the window, cut, and while the cut is dragged.
+"""Take the picture of performance-window.md: ten million hexes in the window, cut.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/pictures/large.py FOLDER
 """
@@ -11,7 +11,6 @@ from pathlib import Path
 
 from screenshots import close_window, cut_mesh, open_window, screenshot, wait_until_drawn
 
-from benchmarks.window.windows import draw
 from hexmend.gallery import make
 from hexmend.io import write
 
@@ -19,7 +18,7 @@ _HEXES = 10_000_000
 
 
 def take_pictures(folder: Path) -> None:
-    """Take the picture of a cut at rest in the window, and that of the view while another one is dragged."""
+    """Take the picture of a cut in the window."""
     with tempfile.TemporaryDirectory() as directory:
         path = Path(directory) / "five-side.vtkhdf"
         write(path, make("five-side", size=_HEXES, scramble=0.3))
@@ -28,10 +27,6 @@ def take_pictures(folder: Path) -> None:
         cut_mesh(window)
         wait_until_drawn(window)
         screenshot(window, folder / "large-rest.png")
-        cut_mesh(window, (1, 0.05, 0))
-        draw(window)
-        assert window.canvas.viewport.mesh_layer.section.shown  # that of a coarse cut
-        window.canvas.interactor.grabFramebuffer().save(str(folder / "large-dragged.png"))
         close_window(window)
 
 

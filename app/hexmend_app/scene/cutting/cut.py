@@ -23,6 +23,9 @@ from hexmend_app.scene.geometry.polygons import Polygons, merge_polygons
 #: on them, and for hexes that only touch a plane, above it.
 _ON_PLANE, _TOUCHING = 1e-10, 1e-8
 
+#: Eight bytes that are 1.
+_ALL_BELOW = 0x0101010101010101
+
 #: Fraction of the extent of the nodes of a curved hex by which the hex may reach beyond them.
 _MARGIN = 0.5
 
@@ -30,7 +33,7 @@ _MARGIN = 0.5
 def sections(
     mesh: Mesh, keep: np.ndarray | None, cut: Cut, colours: np.ndarray, divisions: int | None = None
 ) -> pv.PolyData:
-    """Return the sections of hexes by planes, as polygons with edge flags and normals, in the colours of the hexes.
+    """Return the sections of hexes by planes, as polygons in the colours of the hexes; curved ones have edge flags.
 
     Only hexes that a plane crosses are passed to VTK, which are a few percent. The section by each plane is clipped by
     the other planes. Points on a plane count as beyond it in all hexes that share them, so that a face in the plane is
@@ -104,8 +107,9 @@ def half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarr
 
 def _section(mesh: Mesh, keep: np.ndarray | None, plane: Plane, divisions: int | None) -> tuple[Polygons, np.ndarray]:
     """Return the polygons in which a plane cuts hexes, and the hex of each."""
-    tolerance = _ON_PLANE * float(np.ptp(mesh.points, axis=0).max())
-    crossing = _crossing(mesh, keep, plane, tolerance, divisions is not None)
+    distances = plane.signed_distance(mesh.points)
+    tolerance = _ON_PLANE * float(np.abs(distances).max())
+    crossing = _crossing(mesh, keep, distances, tolerance, divisions is not None)
     at, cells = _lattice(divisions or 1)
     if divisions is None:
         points = mesh.points[mesh.hexes[crossing]]
@@ -114,31 +118,35 @@ def _section(mesh: Mesh, keep: np.ndarray | None, plane: Plane, divisions: int |
     distances = plane.signed_distance(points.reshape(-1, 3)).reshape(points.shape[:2])
     on = np.abs(distances) < tolerance
     points[on] += (tolerance - distances[on])[:, None] * np.array(plane.normal)
-    distances[on] = tolerance
-    corners = distances[:, cells]
-    which, cell = np.nonzero((corners.min(axis=2) < 0) & (corners.max(axis=2) > 0))
+    below = (distances < -tolerance)[:, cells].sum(axis=2)
+    which, cell = np.nonzero((below > 0) & (below < 8))
     if not len(which):
         return Polygons.of(pv.PolyData()), crossing[:0]
-    used, numbers = np.unique(which[:, None] * len(at) + cells[cell], return_inverse=True)
-    grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: numbers.reshape(-1, 8)}, points.reshape(-1, 3)[used])
+    corners = which[:, None] * len(at) + cells[cell]
+    grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: corners}, points.reshape(-1, 3))
     grid.cell_data["hex"] = crossing[which]
-    grid.point_data["at"] = at[used % len(at)]
+    grid.point_data["at"] = np.tile(at, (len(crossing), 1))
     found = _cut_by_vtk(grid, plane)
-    section = Polygons.of(found).facing(np.array(plane.normal))
+    section, hexes = Polygons.of(found).facing(np.array(plane.normal)), np.asarray(found.cell_data["hex"])
+    if divisions is None:
+        return section, hexes
     flags = _on_faces(section, np.asarray(found.point_data["at"]))
     normals = np.broadcast_to(np.array(plane.normal, dtype=np.float32), (len(flags), 3))
-    return replace(section, flags=flags, normals=normals), np.asarray(found.cell_data["hex"])
+    return replace(section, flags=flags, normals=normals), hexes
 
 
-def _crossing(mesh: Mesh, keep: np.ndarray | None, plane: Plane, tolerance: float, curved: bool) -> np.ndarray:
-    """Return the shown hexes that a plane may cross, (k,) int64."""
-    distances = plane.signed_distance(mesh.points)
-    low = high = distances[mesh.hexes[:, 0]]
-    for nodes in (*mesh.hexes.T[1:], *(mesh.mid_nodes.T if curved else ())):
-        here = np.where(nodes >= 0, distances[nodes], low)
-        low, high = np.minimum(low, here), np.maximum(high, here)
-    margin = _MARGIN * (high - low) if curved else 0.0
-    crossed = (low - margin < -tolerance) & (high + margin > -tolerance)
+def _crossing(mesh: Mesh, keep: np.ndarray | None, distances: np.ndarray, tolerance: float, curved: bool) -> np.ndarray:
+    """Return the shown hexes that a plane crosses or, if they are curved, may cross, (k,) int64."""
+    if curved:
+        low = high = distances[mesh.hexes[:, 0]]
+        for nodes in (*mesh.hexes.T[1:], *mesh.mid_nodes.T):
+            here = np.where(nodes >= 0, distances[nodes], low)
+            low, high = np.minimum(low, here), np.maximum(high, here)
+        margin = _MARGIN * (high - low)
+        crossed = (low - margin < 0) & (high + margin > 0)
+    else:
+        below = (distances < -tolerance)[mesh.hexes].view(np.uint64).ravel()  # the eight corners of a hex as a number
+        crossed = (below != 0) & (below != _ALL_BELOW)
     return np.flatnonzero(crossed if keep is None else crossed & keep)
 
 

@@ -74,28 +74,43 @@ class Polygons:
         normals : (j, 3) float64
         offsets : (j,) float64
         """
-        left = self.separated()
+        left = self
         for normal, offset in zip(normals, offsets, strict=True):
             left = left._before(normal, offset)
-        return left
+        return left.separated()
 
     def _before(self, normal: np.ndarray, offset: float) -> Polygons:
-        """Clip polygons that share no points by one plane (Sutherland and Hodgman 1974), all corners at once.
+        """Clip polygons by one plane; few of them cross it."""
+        x, y, z = self.points.T
+        height = x * normal[0] + y * normal[1] + z * normal[2] - offset  # of a point the same in all polygons
+        beyond = (height > 0)[self.places]
+        if not beyond.any():
+            return self
+        count = np.add.reduceat(beyond, self.start[:-1], dtype=np.int64)
+        crossing = self._chosen((count > 0) & (count < np.diff(self.start)))
+        return merge_polygons([self._chosen(count == 0), crossing._clipped(height[crossing.places])])
+
+    def _chosen(self, mask: np.ndarray) -> Polygons:
+        """Return the polygons that a mask, (k,) bool, marks."""
+        counts = np.diff(self.start)
+        corners = np.repeat(mask, counts)
+        flags, normals = (None if of is None else of[corners] for of in (self.flags, self.normals))
+        start = np.concatenate([[0], np.cumsum(counts[mask])])
+        return Polygons(self.points, start, self.places[corners], self.owner[mask], flags, normals)
+
+    def _clipped(self, height: np.ndarray) -> Polygons:
+        """Return the parts below height 0, given the heights of the corners, (c,): Sutherland and Hodgman 1974.
 
         Each corner is followed by the point where the edge that begins there crosses the plane; those that do not exist
         are left out. Edges along the plane are flagged.
         """
-        x, y, z = self.points.T
-        height = x * normal[0] + y * normal[1] + z * normal[2] - offset  # of a point the same in all polygons
-        beyond = height > 0
-        if not beyond.any():
-            return self
-        following = self.following
+        following, beyond = self.following, height > 0
         crosses = beyond != beyond[following]
         kept = np.stack([~beyond, crosses], axis=1)
-        counts = np.add.reduceat(kept.sum(axis=1), self.start[:-1]) if len(self) else np.zeros(0, np.int64)
         polygon = np.repeat(np.arange(len(self)), np.diff(self.start))
-        kept &= (counts >= 3)[polygon][:, None]
+        counts = np.bincount(polygon, kept.sum(axis=1), len(self)).astype(np.int64)
+        whole = counts >= 3
+        kept &= whole[polygon][:, None]
         at = np.flatnonzero(crosses)
         share = (height[at] / (height[at] - height[following[at]]))[:, None]
 
@@ -104,13 +119,12 @@ class Polygons:
             both[at, 1] += (share * (values[following[at]] - values[at])).astype(values.dtype)
             return both[kept]
 
-        points, flags, normals = with_crossings(self.points), self.flags, self.normals
+        points, flags, normals = with_crossings(self.points[self.places]), self.flags, self.normals
         if flags is not None:
             flags = np.stack([flags, flags | ~beyond], axis=1)[kept]
         if normals is not None:
             normals = with_crossings(normals)
             normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-30)[:, None]
-        whole = counts >= 3
         start = np.concatenate([[0], np.cumsum(counts[whole])])
         return Polygons(points, start, np.arange(len(points)), self.owner[whole], flags, normals)
 
