@@ -25,14 +25,14 @@ def windows(tmp_path, monkeypatch):
 @pytest.fixture
 def kept(window, qtbot, gate, windows, monkeypatch):
     """A window whose session is being written beside it, until the gate is opened."""
-    reached, write_new = threading.Event(), session_data.write_new
+    reached, write = threading.Event(), session_data.write
 
     def slow(*values):
         reached.set()
         assert gate.wait(PATIENCE / 1000)
-        write_new(*values)
+        write(*values)
 
-    monkeypatch.setattr(session_data, "write_new", slow)
+    monkeypatch.setattr(session_data, "write", slow)
     own = window.features["session"].recovery
     own.begin()
     window.session.commands.pin(0, True)
@@ -60,7 +60,7 @@ def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
     session.commands.pin(1, True)
     with qtbot.waitSignal(own.written):
         own.write()
-    kept_now = session_data.read(folder / "session.hexmend")
+    kept_now = session_data.read(folder / f"{mesh_file.name}.hexmend")
     assert kept_now.document.now.mesh.pinned.tolist() == session.document.now.mesh.pinned.tolist()
     own.end()
     assert list(windows.iterdir()) == []

@@ -226,6 +226,7 @@ class Recovery(QObject):
             raise task.error
         elif outdated:
             self._on_opened()
+            self.write()
         else:
             if self._recovering in self._recoverable:
                 self.discard(self._recovering)

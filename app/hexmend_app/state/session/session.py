@@ -158,7 +158,7 @@ class Session(QObject):
             timeline.extended, timeline.moved, timeline.playing_changed,
             self.selection.changed, self.side_views.wiped, self.comparison.progressed, self.run_setup.chosen,
             self.node_sweep.changed, self.camera_request.requested,
-            opener.began, opener.progressed, opener.ended, opener.cancelled, opener.failed,
+            opener.began, opener.progressed, opener.ended, opener.cancelled, opener.failed, opener.mesh_missing,
             self.time_reader.progressed, self.time_reader.ended,
             saver.began, saver.progressed, saver.ended, saver.failed,
             *(task.found for task in (self.structure_finder, self.boundary_classifier, self.node_step_task,
