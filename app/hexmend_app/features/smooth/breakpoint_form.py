@@ -21,7 +21,7 @@ _BACKTRACKS = (
     "search node by node."
 )
 #: Value of a number box that shows a word instead of a number.
-_OFF = -1
+_NO_NUMBER = -1
 
 
 class BreakpointForm(QWidget):
@@ -96,7 +96,7 @@ class BreakpointForm(QWidget):
             (self._backtracks, breakpoints.backtracks),
         ):
             with QSignalBlocker(box):
-                box.setValue(_OFF if value is None else value)  # type: ignore[arg-type]  # of the type of its box
+                box.setValue(_NO_NUMBER if value is None else value)  # type: ignore[arg-type]  # of the type of its box
         self._on_changed()
 
     def set_selected(self, hex: int | None, node: int | None) -> None:
@@ -108,8 +108,8 @@ class BreakpointForm(QWidget):
         """Set the size of a new mesh; breakpoints on a single hex or node are removed."""
         for box, count in ((self._hex, hexes), (self._node, nodes)):
             with QSignalBlocker(box):
-                box.setRange(_OFF, count - 1)
-                box.setValue(_OFF)
+                box.setRange(_NO_NUMBER, count - 1)
+                box.setValue(_NO_NUMBER)
         self._on_changed()
 
     def _on_use_selected(self) -> None:
@@ -123,12 +123,12 @@ class BreakpointForm(QWidget):
         self.changed.emit(self.breakpoints())
 
 
-def _number(off: str, name: str, help: str) -> QSpinBox:
-    """Return a box for a number from 0, below which it shows the word `off`."""
+def _number(special: str, name: str, help: str) -> QSpinBox:
+    """Return a box for a number from 0, below which it shows the word `special`."""
     box = QSpinBox()
-    box.setMinimum(_OFF)
-    box.setValue(_OFF)
-    box.setSpecialValueText(off)
+    box.setMinimum(_NO_NUMBER)
+    box.setValue(_NO_NUMBER)
+    box.setSpecialValueText(special)
     box.setFont(tabular(box.font()))
     set_help(box, name, tr(help))
     return box
@@ -148,4 +148,4 @@ def _limit(suffix: str, help: str) -> QDoubleSpinBox:
 
 
 def _value(box: QSpinBox) -> int | None:
-    return None if box.value() == _OFF else box.value()
+    return None if box.value() == _NO_NUMBER else box.value()
