@@ -194,7 +194,7 @@ def cross_button() -> QToolButton:
 def narrow(button: QAbstractButton) -> None:
     """Give a button with a short text the width of that text; the style makes buttons at least 80 pixels wide."""
     button.ensurePolished()
-    button.setFixedWidth(max(44, button.fontMetrics().horizontalAdvance(button.text()) + 20))
+    button.setFixedWidth(max(44, button.fontMetrics().horizontalAdvance(button.text()) + 26))
 
 
 def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:
