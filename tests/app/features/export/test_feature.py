@@ -29,7 +29,7 @@ def export(window, qtbot, tmp_path, monkeypatch):
             if what is not None:
                 dialog.choose(what)
             for key, value in values.items():
-                dialog.settings.form.editor(key).set_value(value)
+                dialog.settings.form.editors[key].set_value(value)
             dialog.target.line.setText(str(tmp_path / name))
             dialog.accept()
             return dialog.result()
