@@ -161,7 +161,7 @@ class Cut(ConfigTable):
         """
         if self.largest_hex >= mesh.n_hexes:
             raise ParameterError(
-                f"[cut] names hex {self.largest_hex:,}: expected one of the mesh, below {mesh.n_hexes:,}"
+                f"[cut] names hex {self.largest_hex}: expected one of the mesh, below {mesh.n_hexes:,}"
             )
         if self.absolute:
             return self

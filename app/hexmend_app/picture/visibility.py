@@ -97,7 +97,7 @@ class Show(ConfigTable):
     def check_numbers(self, hexes: int) -> None:
         """Raise `ParameterError` if a listed hex does not exist in a mesh with a number of hexes."""
         if self.largest_hex >= hexes:
-            raise ParameterError(f"[show] names hex {self.largest_hex:,}: expected one of the mesh, below {hexes:,}")
+            raise ParameterError(f"[show] names hex {self.largest_hex}: expected one of the mesh, below {hexes:,}")
 
 
 def known_metric(name: str, known: Collection[str]) -> None:

@@ -28,7 +28,7 @@ def with_ids(numbers: Sequence[int] | np.ndarray, ids: np.ndarray | None) -> str
     >>> with_ids([0, 2], None), with_ids([0, 2], np.array([501, 502, 503]))
     ('0, 2', '0, 2 (in the file 501, 503)')
     """
-    own = ", ".join(f"{number:,}" for number in numbers)
+    own = ", ".join(map(str, numbers))
     return own if ids is None else f"{own} (in the file {', '.join(map(str, ids[numbers].tolist()))})"
 
 

@@ -52,7 +52,7 @@ def _selected_text(session: Session) -> str:
     if selected is None:
         return ""
     if now.figures.inverted[selected]:
-        return tr("hex {hex:,}: inverted", hex=selected)
+        return tr("hex {hex}: inverted", hex=selected)
     if now.figures.invalid[selected]:
-        return tr("hex {hex:,}: invalid", hex=selected)
-    return tr("hex {hex:,}: q {q:.3f}", hex=selected, q=now.figures.q[selected])
+        return tr("hex {hex}: invalid", hex=selected)
+    return tr("hex {hex}: q {q:.3f}", hex=selected, q=now.figures.q[selected])
