@@ -8,7 +8,17 @@ from string import Template
 
 from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPalette
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QSizePolicy, QToolButton, QToolTip, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QCheckBox,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QToolTip,
+    QWidget,
+)
 
 from hexmend_app.resources import resource
 from hexmend_app.theme import palette
@@ -171,6 +181,22 @@ def set_help(widget: QWidget, name: str, help: str) -> None:
         widget.setToolTip(tip)
     if widget.whatsThis() != tip:
         widget.setWhatsThis(tip)
+
+
+def check_box(text: str, help: str, on: bool = False) -> QCheckBox:
+    """Return a check box with help."""
+    box = QCheckBox(text)
+    box.setChecked(on)
+    set_help(box, text, help)
+    return box
+
+
+def icon_button(icon_name: str, name: str, help: str) -> QPushButton:
+    """Return a narrow button with an icon in place of its name."""
+    button = QPushButton(icon(icon_name), "")
+    button.setFixedWidth(34)
+    set_help(button, name, help)
+    return button
 
 
 def tool_button(icon_name: str, role: Role = TEXT) -> QToolButton:

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QFormLayout, QPushButton, QTabBar, QWidget
 
-from hexmend_app.features.cut.box_page import BoxPage
-from hexmend_app.features.cut.cut_settings import CutPanelSettings
-from hexmend_app.features.cut.number_pages import DepthPage, SpherePage
-from hexmend_app.features.cut.number_row import NumberRow
-from hexmend_app.features.cut.plane_page import PlanePage
-from hexmend_app.features.cut.plane_row import PlaneRow
+from hexmend_app.features.cut.number_row import NumberRow, row_of
+from hexmend_app.features.cut.plane_editor import PlaneEditor
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
-from hexmend_app.picture.cut_shapes import Box, Plane
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, set_help
+from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Sphere
+from hexmend_app.theme.spacing import apply_spacing
+from hexmend_app.theme.style import check_box, icon_button, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MAX_PLANES = 6
@@ -34,10 +31,42 @@ _KINDS = (
     (CutKind.SPHERE, "Sphere", "Show the hexes in a sphere."),
     (CutKind.DEPTH, "Depth", "Show the hexes with a depth below the boundary in a range."),
 )
+_LAYERS = "Layer 1 contains the hexes with a face on the boundary, layer 2 the hexes that share a face with layer 1."
+_EDGES = "Distance of the centre of a hex from the boundary, in mean edge lengths of the mesh."
+_UNITS = ((DepthUnit.LAYERS, "Layers", _LAYERS), (DepthUnit.EDGES, "Edge lengths", _EDGES))
+_HIDE_PLANES = (
+    ("any", "Any plane", "Hide everything beyond at least one plane."),
+    ("all", "All planes", "Hide only the region beyond all planes; removes a corner."),
+)
+_HIDE_INSIDE = (
+    ("any", "Outside", "Hide everything outside the shape or range."),
+    ("all", "Inside", "Hide everything inside the shape or range."),
+)
+_STYLES = (
+    (CutStyle.CRINKLE, "Whole hexes", "Show whole hexes whose centre is on the visible side."),
+    (CutStyle.SMOOTH, "Smooth cut", "Cut through hexes and cap the cut surface."),
+)
+
+
+@dataclass(frozen=True)
+class CutPanelSettings:
+    """The current or proposed cuts, one of each kind, and which of them is selected."""
+
+    cuts: tuple[Cut, ...]
+    kind: CutKind
+
+    def __post_init__(self) -> None:
+        if [cut.kind for cut in self.cuts] != list(CutKind) or not all(cut.absolute for cut in self.cuts):
+            raise ValueError(f"the proposed cuts are not one of each kind: expected {', '.join(CutKind)}")
+
+    @property
+    def by_kind(self) -> dict[CutKind, Cut]:
+        """The cuts by their kind."""
+        return dict(zip(CutKind, self.cuts, strict=True))
 
 
 class CutPanel(QWidget):
-    """Panel that edits the cut.
+    """Form that edits the cut; it has the rows of the kind of cut that is selected.
 
     Signals
     -------
@@ -55,73 +84,96 @@ class CutPanel(QWidget):
         self._bounds: np.ndarray | None = None  # (2, 3): lowest and highest corner
         self._cuts = proposed_cuts(_UNIT_BOUNDS)
         self._selected = 0
-        self._switch = QCheckBox(tr("Cut"))
-        set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
-        self._kind = Segmented(tr("Cut by"), [(kind.value, tr(text), tr(help)) for kind, text, help in _KINDS])
-        self.handles_box = QCheckBox(tr("Handles"))
-        self.handles_box.setChecked(True)
-        set_help(self.handles_box, tr("Handles"), tr("Show the shape of the cut in the view to drag it."))
-        self.plane_row = PlaneRow(_MAX_PLANES)
-        self._plane_page = PlanePage()
-        self._box_page = BoxPage()
-        self._thickness = NumberRow([tr("Thickness")], tr("Distance of the two planes, in mesh units."), low=0.0)
-        self._thickness_label = labelled(tr("Thickness"), self._thickness)
-        self.sphere_page, self._depth_page = SpherePage(), DepthPage()
-        self._hide_label = QLabel(tr("Hide"))
-        self._hide_planes = Segmented(
-            tr("Hide"),
-            [
-                ("any", tr("Any plane"), tr("Hide everything beyond at least one plane.")),
-                ("all", tr("All planes"), tr("Hide only the region beyond all planes; removes a corner.")),
-            ],
-        )
-        self._hide_inside = Segmented(
-            tr("Hidden side"),
-            [
-                ("any", tr("Outside"), tr("Hide everything outside the shape or range.")),
-                ("all", tr("Inside"), tr("Hide everything inside the shape or range.")),
-            ],
-        )
-        self._cut_mode = Segmented(
-            tr("Cut"),
-            [
-                ("crinkle", tr("Whole hexes"), tr("Show whole hexes whose centre is on the visible side.")),
-                ("smooth", tr("Smooth cut"), tr("Cut through hexes and cap the cut surface.")),
-            ],
-        )
+        self._switch = check_box(tr("Cut"), tr("Cut the mesh open (C)."))
+        self.handles_box = check_box(tr("Handles"), tr("Show the shape of the cut in the view to drag it."), on=True)
+        self._kind = _segmented(tr("Cut by"), _KINDS)
+        self._plane = PlaneEditor(self)
+        self._add_plane_row()
+        self._add_numbers()
+        self._hide_planes = _segmented(tr("Hide"), _HIDE_PLANES)
+        self._hide_inside = _segmented(tr("Hidden side"), _HIDE_INSIDE)
+        self._style = _segmented(tr("Cut"), _STYLES)
         self._lay_out()
         self._connect()
         self._refresh()
 
+    def _add_plane_row(self) -> None:
+        """Add the tabs of the planes, with buttons that add and remove planes."""
+        tabs = self._tabs = QTabBar()
+        tabs.setDrawBase(False)
+        tabs.setExpanding(False)
+        tabs.setUsesScrollButtons(False)
+        tabs.setElideMode(Qt.TextElideMode.ElideRight)
+        tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
+        set_help(tabs, tr("Plane"), tr("Plane that is edited here and in the view."))
+        self._add = icon_button("plus", tr("Add plane"), tr("Add a cutting plane."))
+        self._remove = icon_button("minus", tr("Remove plane"), tr("Remove this cutting plane."))
+        self.snap_box = check_box(
+            tr("Snap"), tr("Align a plane with an axis when it is rotated close to the axis."), on=True
+        )
+
+    def _add_numbers(self) -> None:
+        """Add the numbers of the box, slab, sphere and depth."""
+        self._sides = []
+        for name in "XYZ":
+            ends = tr("Minimum {name} of the box", name=name), tr("Maximum {name} of the box", name=name)
+            self._sides.append(NumberRow(ends, tr("Sides of the box normal to the {name} axis.", name=name)))
+        self._thickness = NumberRow([tr("Thickness")], tr("Distance of the two planes, in mesh units."), low=0.0)
+        axes = [tr("Centre {axis}", axis=axis) for axis in "XYZ"]
+        self._centre = NumberRow(axes, tr("Centre of the sphere, in mesh units."))
+        self._radius = NumberRow([tr("Radius")], tr("Radius of the sphere, in mesh units."), low=0.0)
+        self.at_hex = QPushButton(tr("Centre on hex"))
+        set_help(self.at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it."))
+        self.at_hex.setEnabled(False)
+        self._unit = _segmented(tr("Unit of depth"), _UNITS)
+        ends = tr("Minimum depth"), tr("Maximum depth")
+        self._depths = NumberRow(ends, tr("Hexes above and below these depths are hidden."), low=0.0)
+
     def _lay_out(self) -> None:
-        head = fill(QHBoxLayout(), self._switch, None, self.handles_box, spacing=None)
-        grid = form_grid(self, tr("Thickness"))
-        grid.addLayout(head, 0, 0, 1, 2)
-        pages = self._kind, self.plane_row, self._plane_page, self._box_page, self.sphere_page, self._depth_page
-        for row, widget in enumerate(pages, start=1):
-            grid.addWidget(widget, row, 0, 1, 2)
-        hide = fill(QHBoxLayout(), self._hide_planes, self._hide_inside, spacing=None)
-        row = len(pages) + 1
-        grid.addWidget(self._thickness_label, row, 0)
-        grid.addWidget(self._thickness, row, 1)
-        grid.addWidget(self._hide_label, row + 1, 0)
-        grid.addLayout(hide, row + 1, 1)
-        grid.addWidget(self._cut_mode, row + 2, 0, 1, 2)
+        """Lay out the rows: a label, the widget, and the kinds of cuts that it belongs to."""
+        every, planes, box, slab = tuple(CutKind), (CutKind.PLANES,), (CutKind.BOX,), (CutKind.SLAB,)
+        sphere, depth = (CutKind.SPHERE,), (CutKind.DEPTH,)
+        plane_row = row_of(self._tabs, self._add, self._remove, None, self.snap_box)
+        self._rows: tuple[tuple[str, QWidget, tuple[CutKind, ...]], ...] = (
+            ("", self._kind, every),
+            (tr("Plane"), plane_row, planes),
+            (tr("Axis"), self._plane.axis_row, (*planes, *slab)),
+            (tr("Position"), self._plane.position_row, (*planes, *slab)),
+            *(zip("XYZ", self._sides, [box] * 3, strict=True)),
+            (tr("Thickness"), self._thickness, slab),
+            (tr("Centre"), self._centre, sphere),
+            (tr("Radius"), self._radius, sphere),
+            ("", self.at_hex, sphere),
+            (tr("Depth in"), self._unit, depth),
+            (tr("From, to"), self._depths, depth),
+            (tr("Hide"), self._hide_planes, planes),
+            (tr("Hide"), self._hide_inside, (*box, *slab, *sphere, *depth)),
+            ("", self._style, tuple(PLANE_KINDS)),
+        )
+        form = self._form = apply_spacing(QFormLayout(self))
+        form.setContentsMargins(0, 0, 0, 0)
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow(row_of(self._switch, None, self.handles_box))
+        for text, widget, _ in self._rows:
+            form.addRow(text, widget) if text else form.addRow(widget)
 
     def _connect(self) -> None:
         self._switch.clicked.connect(self._emit)
         self._kind.chosen.connect(self._emit)
-        self.plane_row.tabs.currentChanged.connect(self._on_selected)
-        self.plane_row.add_button.clicked.connect(self._on_add)
-        self.plane_row.remove_button.clicked.connect(self._on_remove)
-        self._plane_page.changed.connect(self._on_plane)
-        self._box_page.changed.connect(lambda low, high: self._change(CutKind.BOX, box=Box(low, high)))
+        self._tabs.currentChanged.connect(self._on_selected)
+        self._add.clicked.connect(self._on_add)
+        self._remove.clicked.connect(self._on_remove)
+        self._plane.changed.connect(self._on_plane)
+        for row in self._sides:
+            row.changed.connect(self._on_sides)
         self._thickness.changed.connect(self._on_thickness)
-        self.sphere_page.changed.connect(lambda sphere: self._change(CutKind.SPHERE, sphere=sphere))
-        self._depth_page.changed.connect(lambda depth: self._change(CutKind.DEPTH, depth=depth))
+        for row in (self._centre, self._radius):
+            row.changed.connect(self._on_sphere)
+        self._unit.chosen.connect(self._on_depth)
+        self._depths.changed.connect(self._on_depth)
         for choice in (self._hide_planes, self._hide_inside):
             choice.chosen.connect(lambda key: self._change(self._chosen, notch=key == "all"))
-        self._cut_mode.chosen.connect(lambda key: self._set_style(CutStyle(key)))
+        self._style.chosen.connect(lambda key: self._set_style(CutStyle(key)))
 
     # Called by the feature
 
@@ -139,8 +191,7 @@ class CutPanel(QWidget):
         """
         self._bounds = bounds
         if bounds is not None:
-            self._plane_page.set_bounds(bounds)
-            self._box_page.set_bounds(bounds)
+            self._plane.set_bounds(bounds)
             if not self._switch.isChecked():
                 self._cuts, self._selected = proposed_cuts(bounds, self._cuts, layers), 0
         self._refresh()
@@ -225,9 +276,21 @@ class CutPanel(QWidget):
             planes = self._planes.planes
             self._change(CutKind.PLANES, planes=(*planes[: self._selected], plane, *planes[self._selected + 1 :]))
 
+    def _on_sides(self) -> None:
+        low, high = zip(*(sorted(row.values) for row in self._sides), strict=True)
+        self._change(CutKind.BOX, box=Box(low, high))
+
     def _on_thickness(self, thickness: tuple[float]) -> None:
         slab = self._cuts[CutKind.SLAB].slab
         self._change(CutKind.SLAB, slab=dataclasses.replace(slab, thickness=thickness[0]))
+
+    def _on_sphere(self) -> None:
+        (x, y, z), (radius,) = self._centre.values, self._radius.values
+        self._change(CutKind.SPHERE, sphere=Sphere((x, y, z), radius))
+
+    def _on_depth(self) -> None:
+        low, high = sorted(self._depths.values)
+        self._change(CutKind.DEPTH, depth=Depth(low, high, DepthUnit(self._unit.value())))
 
     def _set_style(self, style: CutStyle) -> None:
         """Set the style of all cuts that can have it."""
@@ -246,33 +309,34 @@ class CutPanel(QWidget):
 
     def _refresh(self) -> None:
         on, kind, cut = self._bounds is not None and self._switch.isChecked(), self._chosen, self.proposal()
-        planes = self._planes.planes
+        planes, by_planes = self._planes.planes, kind is CutKind.PLANES
         self._switch.setEnabled(self._bounds is not None)
-        by_planes, several, slab = kind is CutKind.PLANES, len(planes) > 1, kind is CutKind.SLAB
-        visible = {  # little while the cut is off, to save space
-            self._kind: True,
-            self.handles_box: kind is not CutKind.DEPTH,
-            self.plane_row: by_planes,
-            self._plane_page: by_planes or slab,
-            self._box_page: kind is CutKind.BOX,
-            self._thickness_label: slab,
-            self._thickness: slab,
-            self.sphere_page: kind is CutKind.SPHERE,
-            self._depth_page: kind is CutKind.DEPTH,
-            self._hide_label: several or not by_planes,
-            self._hide_inside: not by_planes,
-            self._hide_planes: several and by_planes,
-            self._cut_mode: kind in PLANE_KINDS,
-        }
-        for widget, shown in visible.items():
-            widget.setVisible(on and shown)
-        self.plane_row.set_planes(len(planes), self._selected)
-        self._plane_page.flip.setVisible(by_planes)
-        self._plane_page.set_plane(cut.slab.middle if slab else planes[self._selected])
-        box, sphere, depth = (self._cuts[kind] for kind in (CutKind.BOX, CutKind.SPHERE, CutKind.DEPTH))
-        self._box_page.set_corners(box.box.low, box.box.high)
-        self._thickness.set_values((self._cuts[CutKind.SLAB].slab.thickness,))
-        self.sphere_page.set_sphere(sphere.sphere)
-        self._depth_page.set_depth(depth.depth)
+        self.handles_box.setVisible(on and kind is not CutKind.DEPTH)
+        for _, widget, kinds in self._rows:  # none while the cut is off, to save space
+            self._form.setRowVisible(widget, on and kind in kinds)
+        self._form.setRowVisible(self._hide_planes, on and by_planes and len(planes) > 1)
+        self._plane.flip.setVisible(by_planes)
+        with QSignalBlocker(self._tabs):
+            while self._tabs.count() < len(planes):
+                self._tabs.addTab(str(self._tabs.count() + 1))
+            while self._tabs.count() > len(planes):
+                self._tabs.removeTab(self._tabs.count() - 1)
+            self._tabs.setCurrentIndex(self._selected)
+        self._add.setEnabled(len(planes) < _MAX_PLANES)
+        self._remove.setEnabled(len(planes) > 1)
+        self._plane.set_plane(cut.slab.middle if kind is CutKind.SLAB else planes[self._selected])
+        box, slab = self._cuts[CutKind.BOX].box, self._cuts[CutKind.SLAB].slab
+        sphere, depth = self._cuts[CutKind.SPHERE].sphere, self._cuts[CutKind.DEPTH].depth
+        for row, low, high in zip(self._sides, box.low, box.high, strict=True):
+            row.set_range(low, high)
+        self._thickness.set_values((slab.thickness,))
+        self._centre.set_values(sphere.centre)
+        self._radius.set_values((sphere.radius,))
+        self._unit.set_value(depth.unit.value)
+        self._depths.set_range(depth.low, depth.high)
         (self._hide_planes if by_planes else self._hide_inside).set_value("all" if cut.notch else "any")
-        self._cut_mode.set_value(cut.style.value)
+        self._style.set_value(cut.style.value)
+
+
+def _segmented(name: str, options: Iterable[tuple[str, str, str]]) -> Segmented:
+    return Segmented(name, [(str(key), tr(text), tr(help)) for key, text, help in options])

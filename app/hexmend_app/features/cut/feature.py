@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.cut.cut_panel import CutPanel
-from hexmend_app.features.cut.cut_settings import CutPanelSettings
+from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.geometry.frame import Frame
@@ -33,8 +32,8 @@ class FeatureCut(Feature):
         self.panel.cut_changed.connect(view.set_cut)
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_box.clicked.connect(view.set_handles)
-        self.panel.plane_row.snap_box.clicked.connect(view.set_snap)
-        self.panel.sphere_page.at_hex.clicked.connect(self._centre_sphere)
+        self.panel.snap_box.clicked.connect(view.set_snap)
+        self.panel.at_hex.clicked.connect(self._centre_sphere)
         self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
         self.inside.peel.changed.connect(lambda layers: view.change(show={"peel": layers}))
@@ -153,7 +152,7 @@ class FeatureCut(Feature):
         if self._proposed is not None:
             self.panel.restore(self._proposed)
             self._proposed = None
-        self.panel.sphere_page.at_hex.setEnabled(self.session.selection.hex is not None)
+        self.panel.at_hex.setEnabled(self.session.selection.hex is not None)
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)

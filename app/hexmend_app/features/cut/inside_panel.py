@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, labelled, narrow, note, set_help, tabular
+from hexmend_app.theme.style import check_box, icon_button, labelled, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
@@ -27,6 +27,7 @@ _SHRINK = (
     "{count:,} hexes, only hexes with a visible face are drawn."
 )
 _CUT_SMOOTHLY = "Hexes cannot be shrunk with a smooth cut: select <i>Whole hexes</i> for the cut."
+_OUTLINE = "Draw the sharp edges of the boundary, paler where hexes are hidden, and the shading of rounded bodies."
 _RINGS = (
     "Number of rings of translucent hexes around the isolated hexes. Ring 1 shares a node with the isolated hexes, "
     "ring 2 with ring 1, and so on."
@@ -66,20 +67,9 @@ class InsidePanel(QWidget):
         narrow(self.all_button)
         set_help(self.all_button, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
-        self.undo_button = QPushButton(icon("undo"), "")
-        set_help(self.undo_button, tr("Show last"), tr("Show the hex that was hidden last."))
-        self.restore_button = QPushButton(icon("restore"), "")
-        for button in (self.undo_button, self.restore_button):
-            button.setFixedWidth(34)
-        set_help(self.restore_button, tr("Show hidden"), tr("Show all hexes that were hidden."))
-        self.outline = QCheckBox(tr("Sharp edges and outline"))
-        set_help(
-            self.outline,
-            tr("Sharp edges and outline"),
-            tr(
-                "Draw the sharp edges of the boundary, paler where hexes are hidden, and the shading of rounded bodies."
-            ),
-        )
+        self.undo_button = icon_button("undo", tr("Show last"), tr("Show the hex that was hidden last."))
+        self.restore_button = icon_button("restore", tr("Show hidden"), tr("Show all hexes that were hidden."))
+        self.outline = check_box(tr("Sharp edges and outline"), tr(_OUTLINE))
         self.shown = note()
         self.shown.setFont(tabular(self.shown.font()))
         self.shown.setWordWrap(False)  # wrapping would reserve a second line

@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend.parameters import Parameter
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.spacing import Part, fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.inputs.number_box import NumberBox
 
@@ -63,6 +63,11 @@ class NumberRow(QWidget):
             if _rounded(box.value()) != _rounded(value):
                 box.set_value(_rounded(value))
 
+    def set_range(self, low: float, high: float) -> None:
+        """Show two numbers, of which the first digits of the greater one, being typed, may be less than the other."""
+        if sorted(self.values) != [low, high]:
+            self.set_values((low, high))
+
     def _on_changed(self, at: int) -> None:
         typed = self._boxes[at].value()
         if typed != _rounded(self.values[at]):
@@ -72,3 +77,10 @@ class NumberRow(QWidget):
 
 def _rounded(value: float) -> float:
     return float(f"{value:.{_DIGITS}g}")
+
+
+def row_of(*parts: Part) -> QWidget:
+    """Return a row of a form with several widgets."""
+    row = QWidget()
+    fill(QHBoxLayout(row), *parts, margins=(0, 0, 0, 0), spacing=4)
+    return row

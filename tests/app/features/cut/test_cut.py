@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider, QWidget
-from superqt import QRangeSlider
 
 from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.picture import Box, Cut, CutStyle, Plane, Slab, Sphere
@@ -282,24 +281,6 @@ def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     assert texts(panel) == ["1"]
 
 
-def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
-    switch_on(panel)
-    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
-    assert emitted[-1] == Cut(box=Box((0, 7.5, 2.5), (2, 22.5, 3.5)))
-    assert not part(panel, "Position").isVisible()
-    sides = named(panel, QRangeSlider, "Y extent of the box")
-    QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
-    QTest.mouseClick(part(panel, "Hidden side").button("all"), _LEFT)
-    box = emitted[-1]
-    assert (box.box.low, box.notch) == ((0, 7.5, 2.5), True)
-    assert box.box.high[1] > 22.5
-    assert (box.box.high[0], box.box.high[2]) == (2, 3.5)
-    QTest.mouseClick(part(panel, "Cut by").button("planes"), _LEFT)
-    assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
-    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
-    assert emitted[-1] == box
-
-
 def choose_kind(panel, key):
     switch_on(panel)
     QTest.mouseClick(part(panel, "Cut by").button(key), _LEFT)
@@ -310,6 +291,22 @@ def type_into(panel, name, text):
     box.setFocus()
     box.lineEdit().selectAll()
     QTest.keyClicks(box, text)
+
+
+def test_a_box_is_typed_and_inverted(panel, emitted):
+    switch_on(panel)
+    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
+    assert emitted[-1] == Cut(box=Box((0, 7.5, 2.5), (2, 22.5, 3.5)))
+    assert not part(panel, "Position").isVisible()
+    type_into(panel, "Maximum Y of the box", "25")  # its first digit is less than the minimum
+    QTest.mouseClick(part(panel, "Hidden side").button("all"), _LEFT)
+    box = emitted[-1]
+    assert (box.box.low, box.notch) == ((0, 7.5, 2.5), True)
+    assert box.box.high == (2, 25, 3.5)
+    QTest.mouseClick(part(panel, "Cut by").button("planes"), _LEFT)
+    assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
+    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
+    assert emitted[-1] == box
 
 
 def test_a_slab_is_turned_moved_and_made_thicker(panel, emitted):
@@ -341,13 +338,13 @@ def test_the_position_of_a_plane_is_typed(panel, emitted):
 def test_pages_that_are_hidden_change_their_own_cut(panel, emitted):
     choose_kind(panel, "planes")
     planes = emitted[-1]
-    named(panel, QRangeSlider, "X extent of the box").setValue((0, 1000))
+    named(panel, NumberBox, "Minimum X of the box").stepBy(-1)
     named(panel, NumberBox, "Radius").stepBy(1)
     named(panel, NumberBox, "Thickness").stepBy(1)
     named(panel, NumberBox, "Maximum depth").stepBy(1)
     assert set(emitted) == {planes}
     QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
-    assert (emitted[-1].box.low[0], emitted[-1].box.high[0]) == (-1, 3)
+    assert (emitted[-1].box.low[0], emitted[-1].box.high[0]) == (-1, 2)
 
 
 def test_a_sphere_is_typed_and_has_whole_hexes(panel, emitted):

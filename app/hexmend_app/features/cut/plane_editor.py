@@ -1,4 +1,4 @@
-"""Page that edits a cutting plane."""
+"""Inputs of a cutting plane."""
 
 from __future__ import annotations
 
@@ -6,25 +6,29 @@ import dataclasses
 import math
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSlider, QWidget
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QSlider
 
-from hexmend_app.features.cut.number_row import NumberRow
+from hexmend_app.features.cut.number_row import NumberRow, row_of
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, labelled, set_help
+from hexmend_app.theme.style import icon_button, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _TICKS = 1000
 
 
-class PlanePage(QWidget):
-    """Page that aligns a plane with an axis, moves it and flips it.
+class PlaneEditor(QObject):
+    """Inputs that align a plane with an axis, move it and flip it.
 
     The slider covers the mesh's bounds along the plane's normal, in the same direction if the plane is flipped.
+
+    Attributes
+    ----------
+    axis_row, position_row : QWidget
+        Rows of a form.
+    flip : QPushButton
 
     Signals
     -------
@@ -34,42 +38,23 @@ class PlanePage(QWidget):
 
     changed = Signal(object)
 
-    def __init__(self, parent: QWidget | None = None):
+    def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])  # lowest and highest corner
         self._plane = Plane(point=(0.0, 0.0, 0.0))
-        self._axis = Segmented(
-            tr("Axis"),
-            [(key, key.upper(), tr("A plane normal to the {axis} axis.", axis=key.upper())) for key in _AXES]
-            + [
-                (
-                    "free",
-                    tr("Free"),
-                    tr("A plane that was rotated in the view; select X, Y or Z to align it with an axis."),
-                )
-            ],
-        )
-        self.flip = QPushButton(icon("swap-horizontal"), "")
-        self.flip.setFixedWidth(34)
-        set_help(self.flip, tr("Flip"), tr("Hide the opposite side of the plane."))
+        axes = [(key, key.upper(), tr("A plane normal to the {axis} axis.", axis=key.upper())) for key in _AXES]
+        free = tr("A plane that was rotated in the view; select X, Y or Z to align it with an axis.")
+        self._axis = Segmented(tr("Axis"), [*axes, ("free", tr("Free"), free)])
+        self.flip = icon_button("swap-horizontal", tr("Flip"), tr("Hide the opposite side of the plane."))
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
         self._slider.setPageStep(_TICKS // 20)
-        set_help(
-            self._slider,
-            tr("Position"),
-            tr("Position of the plane; arrow keys move it by 1/1000 of the mesh's extent."),
-        )
+        help = tr("Position of the plane; arrow keys move it by 1/1000 of the mesh's extent.")
+        set_help(self._slider, tr("Position"), help)
         self._value = NumberRow([tr("Position in mesh units")], tr("Position along the plane's normal, in mesh units."))
         self._value.setFixedWidth(76)
-        grid = form_grid(self, tr("Thickness"))
-        axis = fill(QHBoxLayout(), (self._axis, 1), self.flip, spacing=4)
-        position = fill(QHBoxLayout(), (self._slider, 1), self._value, spacing=4)
-        rows = ((tr("Axis"), self._axis, axis), (tr("Position"), self._slider, position))
-        for row, (text, widget, line) in enumerate(rows):
-            grid.addWidget(labelled(text, widget), row, 0)
-            grid.addLayout(line, row, 1)
-
+        self.axis_row = row_of((self._axis, 1), self.flip)
+        self.position_row = row_of((self._slider, 1), self._value)
         self._axis.chosen.connect(self._on_axis)
         self._slider.valueChanged.connect(self._on_slider)
         self._value.changed.connect(lambda values: self._move_to(*values))
