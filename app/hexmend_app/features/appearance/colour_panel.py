@@ -18,7 +18,7 @@ from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, note, set_help, show_text
+from hexmend_app.theme.style import check_box, labelled, note, set_help, show_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -38,8 +38,8 @@ _RANGES = {
     Range.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
     _PINNED: ("Pinned", "Limits that you set, initially the current range."),
 }
-NEUTRAL = "Draw the boundary white and cut faces in one colour; invalid hexes keep their colours."
-SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
+_NEUTRAL = "Draw the boundary white and cut faces in one colour; invalid hexes keep their colours."
+_SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
@@ -57,7 +57,6 @@ class ColourPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._colours = Colours()
-        self._before_material = Colours()  # before the colours showed materials, which have no range
         self._ends = (0.0, 1.0)  # of the current range
         self._pinned: dict[str, tuple[float, float]] = {}  # limits that the user set, by metric
         self._metric = ComboBox()
@@ -77,9 +76,7 @@ class ColourPanel(QWidget):
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         set_help(self._low, tr("Minimum value"), tr("Value of the first colour; to set it, select Pinned."))
         set_help(self._high, tr("Maximum value"), tr("Value of the last colour; to set it, select Pinned."))
-        self._neutral, self.shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
-        set_help(self._neutral, tr("Neutral"), tr(NEUTRAL))
-        set_help(self.shading, tr("Shading"), tr(SHADING))
+        self._neutral, self.shading = check_box(tr("Neutral"), tr(_NEUTRAL)), check_box(tr("Shading"), tr(_SHADING))
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -132,13 +129,15 @@ class ColourPanel(QWidget):
         """Select a metric as the user would."""
         if metric == self._colours.metric:
             return
-        before = self._before_material if self._colours.metric == MATERIAL.name else self._colours
-        if metric == MATERIAL.name:
-            self._before_material = self._colours
-        range = before.range
-        if (metric in DISPLACEMENT_QUANTITIES) != (before.metric in DISPLACEMENT_QUANTITIES):
+        before, range = self._colours.metric, self._colours.range
+        if metric == MATERIAL.name:  # materials have no range; that of the metric stays for the return to it
+            if isinstance(range, tuple):
+                self._pinned[before] = range
+            self._change(metric=metric)
+            return
+        if (metric in DISPLACEMENT_QUANTITIES) != (before in DISPLACEMENT_QUANTITIES):
             range = Range.FITTED if metric in DISPLACEMENT_QUANTITIES else Range.FULL
-        if isinstance(range, tuple) and metric != before.metric:  # limits of one metric mean nothing for another
+        if isinstance(range, tuple):  # limits of one metric mean nothing for another
             range = self._pinned.get(metric, Range.FULL)
         if range in (Range.FULL, Range.ACCEPTABLE) and declared_range(metric, range) is None:
             range = Range.FITTED

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
+from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
-from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.geometry.frame import Frame
@@ -31,14 +30,13 @@ class FeatureAppearance(Feature):
         super().__init__(host)
         view = self._view = self.session.view
         self._seen = ChangeTracker()
-        self._metric_before = view.look.colours.metric  # before the colours showed materials
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
         self.panel.shading.clicked.connect(lambda on: view.change(page={"shading": on}))
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
-        """Return the actions that switch edges, shading and neutral colours."""
+        """Return the action that switches edges."""
         view = self._view
         return (
             Action(
@@ -53,34 +51,6 @@ class FeatureAppearance(Feature):
                 handle=lambda on: view.change(lines={"edges": None if on else 0.0}),
                 checked=lambda: view.look.lines.shown,
             ),
-            Action(
-                id="shading",
-                text=tr("S&hading"),
-                menu="View",
-                section=1,
-                help=tr(SHADING),
-                handle=lambda on: view.change(page={"shading": on}),
-                checked=lambda: view.look.page.shading,
-            ),
-            Action(
-                id="neutral",
-                text=tr("&Neutral colours"),
-                menu="View",
-                section=1,
-                help=tr(NEUTRAL),
-                handle=lambda on: view.change(colours={"neutral": on}),
-                checked=lambda: view.look.colours.neutral,
-            ),
-            Action(
-                id="colour_by_material",
-                text=tr("Colour by &material"),
-                menu="View",
-                section=1,
-                help=tr("Colour the hexes by material: blocks, sets, physical volumes or regions of the file."),
-                handle=self._colour_by_material,
-                enabled=lambda: self._has_materials or self._by_material,
-                checked=lambda: self._by_material,
-            ),
         )
 
     def panels(self) -> Sequence[Panel]:
@@ -93,7 +63,7 @@ class FeatureAppearance(Feature):
                 place=PanelPlace.TOOLS,
                 tab=tr("Look"),
                 order=20,
-                help=tr("Metric, colour map and range of the colours."),
+                help=tr("Metric or material, map and range of the colours, neutral colours, shading."),
             ),
         )
 
@@ -136,21 +106,6 @@ class FeatureAppearance(Feature):
         if self.canvas.isHidden():
             self.canvas.show()
             self.canvas.interactor.setFocus()  # for the keys of the view
-
-    @property
-    def _by_material(self) -> bool:
-        return self._view.look.colours.metric == MATERIAL.name
-
-    @property
-    def _has_materials(self) -> bool:
-        document = self.session.document
-        return document.is_open and document.now.mesh.materials is not None
-
-    def _colour_by_material(self, on: bool) -> None:
-        """Colour by material, or by the metric before."""
-        if on:
-            self._metric_before = self._view.look.colours.metric
-        self.panel.choose_metric(MATERIAL.name if on else self._metric_before)
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

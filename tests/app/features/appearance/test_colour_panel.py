@@ -15,7 +15,6 @@ from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import brought, heard_from, key, named, pixels, press, type_text, walk_to
-from tests.app.hosting import action
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -141,7 +140,7 @@ def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     assert emitted[-1].range == (0.25, 1)
 
 
-# Colours by material in the panel and the menu, and in files of earlier versions.
+# Colours by material.
 
 
 @pytest.fixture
@@ -152,26 +151,14 @@ def host(hosted):
     return host
 
 
-def test_the_menu_switches_between_the_material_and_the_metric_before(host):
-    view, switch = host.session.view, action(host.feature, "colour_by_material")
-    view.colour_by("scaled-jacobian")
-    host.feature.refresh()
-    assert switch.enabled()
-    switch.handle(True)
-    assert (view.look.colours.metric, view.look.colours.range) == ("material", Range.FITTED)
-    assert switch.checked()
-    switch.handle(False)
-    assert view.look.colours.metric == "scaled-jacobian"
-
-
 @pytest.mark.parametrize("range", [Range.FULL, Range.ACCEPTABLE, Range.FITTED, (0.1, 0.5)])
 def test_the_range_is_as_before_after_colours_by_material(host, range):
-    view, switch = host.session.view, action(host.feature, "colour_by_material")
+    view, panel = host.session.view, host.feature.panel
     view.change(colours={"metric": "q", "range": range})
     host.feature.refresh()
     for _ in (1, 2):
-        switch.handle(True)
-        switch.handle(False)
+        panel.choose_metric("material")
+        panel.choose_metric("q")
         assert (view.look.colours.metric, view.look.colours.range) == ("q", range)
 
 
@@ -191,10 +178,6 @@ def test_controls_of_values_are_disabled_for_materials(host):
     assert not any(control.isEnabled() for control in controls)
     panel.choose_metric("q")
     assert all(control.isEnabled() for control in controls)
-
-
-def test_a_mesh_of_one_material_does_not_offer_the_switch(hosted):
-    assert not action(FeatureAppearance(hosted(make("cube", size=8))), "colour_by_material").enabled()
 
 
 # Appearance in the window: colours and their ranges.
