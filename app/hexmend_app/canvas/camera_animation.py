@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer, QVariantAnimation, Signal
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -103,18 +103,6 @@ class CameraAnimation(QObject):
         self._poses.clear()
         self._remembered = None
         self.end_move()
-        self.changed.emit()
-
-    def pose_history(self) -> tuple[list[CameraPose], list[CameraPose], CameraPose | None]:
-        """Return the poses before and after the current pose, oldest first, and the bookmarked pose."""
-        before, after = self._poses.around(pose_of(self._camera))
-        return before, after, self._remembered
-
-    def resume(self, before: Sequence[CameraPose], after: Sequence[CameraPose], remembered: CameraPose | None) -> None:
-        """Restore the history before and after the current pose, and the bookmarked pose."""
-        self.stop()
-        self._poses.restore(before, pose_of(self._camera), after)
-        self._remembered = remembered
         self.changed.emit()
 
     def _commit(self) -> None:

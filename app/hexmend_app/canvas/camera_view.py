@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -19,7 +18,6 @@ from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera import steering
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
-from hexmend_app.state.view.camera_request import PoseHistoryData
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 
@@ -101,19 +99,10 @@ class CameraView(QWidget):
         """Current camera pose."""
         return pose_of(self.viewport.camera, self.up)
 
-    @property
-    def pose_history(self) -> PoseHistoryData:
-        """History of camera poses."""
-        before, after, remembered = self.camera_animation.pose_history()
-        earlier, later = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
-        return PoseHistoryData(earlier, later, None if remembered is None else replace(remembered, axis=self.up))
-
-    def set_pose(self, pose: CameraPose, pose_history: PoseHistoryData | None = None) -> None:
-        """Set the camera pose and, if given, the history of poses."""
+    def set_pose(self, pose: CameraPose) -> None:
+        """Set the camera pose."""
         self.panes.camera_controller.up = pose.axis
         self._move_camera(partial(apply_pose, self.viewport.camera, pose))
-        if pose_history is not None:
-            self.camera_animation.resume(pose_history.before, pose_history.after, pose_history.left)
 
     @property
     def up(self) -> str:

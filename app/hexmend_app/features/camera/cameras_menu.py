@@ -10,7 +10,7 @@ from hexmend_app.translation import tr
 
 
 class CamerasMenu(QMenu):
-    """Menu that applies, renames and deletes saved cameras.
+    """Menu that applies and deletes saved cameras.
 
     Parameters
     ----------
@@ -18,12 +18,11 @@ class CamerasMenu(QMenu):
 
     Signals
     -------
-    chosen(name), rename_requested(name), delete_requested(name)
-        The user selected a camera to apply, rename or delete.
+    chosen(name), delete_requested(name)
+        The user selected a camera to apply or delete.
     """
 
     chosen = Signal(str)
-    rename_requested = Signal(str)
     delete_requested = Signal(str)
 
     def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
@@ -40,7 +39,6 @@ class CamerasMenu(QMenu):
         self.clear()
         self._add_names(self, self.chosen, tr("Apply the camera “{name}”."))
         self.addSeparator()
-        self._add_names(self.addMenu(tr("&Rename")), self.rename_requested, tr("Rename the camera “{name}”."))
         self._add_names(self.addMenu(tr("&Delete")), self.delete_requested, tr("Delete the camera “{name}”."))
 
     def _add_names(self, menu: QMenu, chosen: SignalInstance, help: str) -> None:

@@ -12,9 +12,9 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
+from hexmend_app.state.view.camera_request import CameraData
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_camera_name, ask_new_name
+from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -43,7 +43,6 @@ class FeatureCamera(Feature):
         self._cameras = self.session.saved_cameras
         self.menu = CamerasMenu(self._cameras, host.dialog_parent)
         self.menu.chosen.connect(self.go)
-        self.menu.rename_requested.connect(self._ask_new_name)
         self.menu.delete_requested.connect(self._cameras.remove)
         self.session.selection.visited.connect(self._fly)
 
@@ -142,7 +141,7 @@ class FeatureCamera(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """Return the pose of the camera, and its history."""
+        """Return the pose of the camera."""
         return (StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore),)
 
     def canvas_ready(self, canvas: Canvas) -> None:
@@ -152,8 +151,8 @@ class FeatureCamera(Feature):
     def refresh(self) -> None:
         """Restore the camera of an opened session, and the camera from before an isolation once it ends."""
         if self.session.camera_request.wanted is not None and self._draws:
-            self._apply(self.session.camera_request.wanted, self.session.camera_request.pose_history)
-            self.session.camera_request.wanted, self.session.camera_request.pose_history = None, PoseHistoryData()
+            self._apply(self.session.camera_request.wanted)
+            self.session.camera_request.wanted = None
         isolated = self.session.view.look.show.isolate is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
@@ -215,18 +214,9 @@ class FeatureCamera(Feature):
         if self._draws and name in self._cameras.all:
             self._apply(self._cameras.all[name])
 
-    def _ask_new_name(self, before: str) -> None:
-        """Ask for another name of a camera; that of another one is refused."""
-        name = ask_new_name(self.host.dialog_parent, tr("Rename camera"), before)
-        if name in self._cameras.all and name != before:
-            text = tr("A camera “{name}” already exists. Choose another name, or delete that camera first.", name=name)
-            self.host.messages.show_info(text)
-        elif name:
-            self.host.try_and_report(tr("Camera not renamed"), lambda: self._cameras.rename(before, name))
-
-    def _apply(self, camera: Camera, history: PoseHistoryData | None = None) -> None:
+    def _apply(self, camera: Camera) -> None:
         if camera.pose is not None:
-            self.canvas.set_pose(camera.pose, history)
+            self.canvas.set_pose(camera.pose)
         else:
             self.canvas.set_up(camera.up)
             self.canvas.set_parallel(camera.parallel)
@@ -239,15 +229,14 @@ class FeatureCamera(Feature):
         return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
 
     def _to_data(self) -> CameraData:
-        """Return the pose and the pose history of the view; a requested pose that it has not taken yet comes first."""
-        request = self.session.camera_request
-        if request.wanted is not None and request.wanted.pose is not None:
-            return CameraData(request.wanted.pose, request.pose_history)
-        return CameraData(self.canvas.pose, self.canvas.pose_history) if self._draws else CameraData()
+        """Return the pose of the view; a requested pose that it has not taken yet comes first."""
+        wanted = self.session.camera_request.wanted
+        if wanted is not None and wanted.pose is not None:
+            return CameraData(wanted.pose)
+        return CameraData(self.canvas.pose) if self._draws else CameraData()
 
     def _restore(self, data: CameraData) -> None:
-        camera = None if data.pose is None else Camera.at(data.pose)
-        self.session.camera_request.request(camera, data.history)
+        self.session.camera_request.request(None if data.pose is None else Camera.at(data.pose))
 
     def _ready(self) -> bool:
         return self.canvas is not None

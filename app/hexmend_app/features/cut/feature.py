@@ -36,7 +36,7 @@ class FeatureCut(Feature):
         self.panel.at_hex.clicked.connect(self._centre_sphere)
         self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
-        self.inside.peel.changed.connect(lambda layers: view.change(show={"peel": layers}))
+        self.inside.peel.valueChanged.connect(lambda layers: view.change(show={"peel": layers}))
         self.inside.shrink_changed.connect(lambda share: view.change(show={"shrink": share}))
         self.inside.outline.clicked.connect(lambda on: view.change(show={"outline": on}))
         self.inside.rings.valueChanged.connect(view.set_rings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
@@ -11,7 +11,7 @@ from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import check_box, icon_button, labelled, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
-from hexmend_app.widgets.inputs.slider_box import SliderBox
+from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.wording import counted
 
 _MAX_SHRINK = 60  # per cent
@@ -34,6 +34,10 @@ _RINGS = (
 )
 
 
+class _NumberBox(FocusedWheel, QSpinBox):
+    """Spin box that ignores the wheel unless focused."""
+
+
 class InsidePanel(QWidget):
     """Panel that hides or shrinks hexes to show the hexes behind them.
 
@@ -52,15 +56,11 @@ class InsidePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.peel = SliderBox(tr("Peel layers"), tr(_PEEL), 0)
-        self._shrink = SliderBox(tr("Shrink hexes"), tr(_SHRINK, count=WHOLE), _MAX_SHRINK, " %")
-        width = max(self.peel.box_width(), self._shrink.box_width())
-        self.peel.set_box_width(width)
-        self._shrink.set_box_width(width)
-        self.rings = QSpinBox()
+        self.peel, self._shrink, self.rings = _number_box(), _number_box(), _number_box()
+        self._shrink.setRange(0, _MAX_SHRINK)
+        self._shrink.setSingleStep(5)
+        self._shrink.setSuffix(" %")
         self.rings.setRange(0, _MAX_RINGS)
-        self.rings.setFont(tabular(self.rings.font()))
-        self.rings.setFixedWidth(width)
         set_help(self.rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
         self.all_button = QPushButton(tr("All"))
@@ -75,7 +75,7 @@ class InsidePanel(QWidget):
         self.shown.setWordWrap(False)  # wrapping would reserve a second line
         self._cut_smoothly = False
         self._lay_out()
-        self._shrink.changed.connect(lambda share: self.shrink_changed.emit(share / 100))
+        self._shrink.valueChanged.connect(lambda share: self.shrink_changed.emit(share / 100))
         self.set_layers(0)
         self.set_look(Look(), 1)
         self.set_shown(0, 0)
@@ -94,21 +94,23 @@ class InsidePanel(QWidget):
 
     def set_layers(self, layers: int) -> None:
         """Set the number of layers that can be peeled; emits no signal."""
-        self.peel.set_most(layers)
-        self.peel.set_help(tr(_PEEL) if layers else tr(_NO_LAYERS))
+        with QSignalBlocker(self.peel):
+            self.peel.setRange(0, layers)
+        set_help(self.peel, tr("Peel layers"), tr(_PEEL) if layers else tr(_NO_LAYERS))
         self.peel.setEnabled(layers > 0)
 
     def set_look(self, look: Look, rings: int) -> None:
         """Show the settings of a look and the number of rings; emits no signal."""
         show, isolate = look.show, look.show.isolate
-        self.peel.set_value(show.peel)
         self._cut_smoothly = look.cut.smooth
-        self._shrink.set_value(round(100 * show.shrink))
         self._shrink.setEnabled(not self._cut_smoothly)
-        self._shrink.set_help(tr(_CUT_SMOOTHLY) if self._cut_smoothly else tr(_SHRINK, count=WHOLE))
-        if self.rings.value() != rings:  # setValue would overwrite text being typed
-            with QSignalBlocker(self.rings):
-                self.rings.setValue(rings)
+        help = tr(_CUT_SMOOTHLY) if self._cut_smoothly else tr(_SHRINK, count=WHOLE)
+        set_help(self._shrink, tr("Shrink hexes"), help)
+        values = (self.peel, show.peel), (self._shrink, round(100 * show.shrink)), (self.rings, rings)
+        for box, value in values:
+            if box.value() != value:  # setValue would overwrite text being typed
+                with QSignalBlocker(box):
+                    box.setValue(value)
         isolated = 0 if isolate is None else len(isolate.hexes)
         self.isolated.setText(
             tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
@@ -130,3 +132,10 @@ class InsidePanel(QWidget):
             self.shown.setText(tr("{shown:,} of {count} shown (before the cut)", shown=shown, count=count))
         else:
             self.shown.setText(tr("{shown:,} of {count} shown", shown=shown, count=count))
+
+
+def _number_box() -> _NumberBox:
+    box = _NumberBox()
+    box.setFont(tabular(box.font()))
+    box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    return box

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.state.view.camera_request import MAX_POSES
+
+#: Maximum number of poses in the history, including the current one.
+MAX_POSES = 50
 
 
 class PoseHistory:
@@ -35,16 +35,6 @@ class PoseHistory:
         """Clear the history."""
         self._poses.clear()
         self._index = -1
-
-    def around(self, pose: CameraPose) -> tuple[list[CameraPose], list[CameraPose]]:
-        """Return the poses before and after a pose, oldest first, as if the pose were added."""
-        if self._poses and pose.looks_like(self._poses[self._index]):
-            return self._poses[: self._index], self._poses[self._index + 1 :]
-        return self._poses[: self._index + 1][1 - self._most :], []
-
-    def restore(self, before: Sequence[CameraPose], pose: CameraPose, after: Sequence[CameraPose]) -> None:
-        """Restore the current pose and the poses before and after it."""
-        self._poses, self._index = [*before, pose, *after], len(before)
 
     @property
     def can_go_back(self) -> bool:

@@ -45,17 +45,6 @@ class SavedCameras(QObject):
         """
         self._set(NamedCameras({**self.all, name: camera}).named)
 
-    def rename(self, name: str, new_name: str) -> None:
-        """Rename a camera, replacing one with the new name.
-
-        Raises
-        ------
-        ParameterError
-            If the new name is invalid.
-        """
-        remaining = {key: camera for key, camera in self.all.items() if key != new_name or key == name}
-        self._set(NamedCameras({new_name if key == name else key: camera for key, camera in remaining.items()}).named)
-
     def remove(self, name: str) -> None:
         """Remove a camera."""
         self._set({key: camera for key, camera in self.all.items() if key != name})

@@ -1,4 +1,4 @@
-"""Saved cameras: naming, applying, renaming, deleting, and their use in pictures."""
+"""Saved cameras: naming, applying, deleting, and their use in pictures."""
 
 import pytest
 from PySide6.QtGui import QGuiApplication
@@ -53,25 +53,14 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
 
 def test_the_menu_applies_and_deletes_cameras(window, saved):
     menu = window.features["camera"].menu
-    go, _, _ = entries(menu)
+    go, _ = entries(menu)
     assert [name for name in go if name] == list(saved)
     go["top"].trigger()
     assert window.canvas.pose == saved["top"]
     for name in saved:
-        entries(menu)[2][name].trigger()
+        entries(menu)[1][name].trigger()
     assert window.session.saved_cameras.all == {}
     assert not menu.menuAction().isEnabled()
-
-
-def test_the_menu_renames_unless_the_name_exists(window, saved, monkeypatch):
-    camera = window.session.saved_cameras.all["top"]
-    menu = window.features["camera"].menu
-    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("from above", True))
-    entries(menu)[1]["top"].trigger()
-    assert window.session.saved_cameras.all["from above"] == camera
-    entries(menu)[1]["front & side"].trigger()
-    assert "already" in " ".join(window.messages.messages()[-1])
-    assert list(window.session.saved_cameras.all) == ["front & side", "from above"]
 
 
 @pytest.mark.slow

@@ -2,15 +2,13 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton, QSlider, QSpinBox
+from PySide6.QtWidgets import QPushButton, QSpinBox
 
 from hexmend import gallery
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look
-from hexmend_app.widgets.inputs.slider_box import SliderBox
 from tests.app.driving import LEFT, heard_from, named, open_mesh, type_text
 
 PEEL, RINGS = "Peel layers", "Rings around isolated hexes"
@@ -45,26 +43,21 @@ def type_into(box, text):
 # The panel
 
 
-def test_slider_and_spin_box_show_the_same_number_of_layers(panel):
-    emitted = heard_from(panel.peel.changed)
-    named(panel, QSlider, PEEL).setFocus()
-    QTest.keyClick(named(panel, QSlider, PEEL), Qt.Key.Key_Right)
-    assert named(panel, QSpinBox, PEEL).value() == 1
+def test_layers_are_typed_and_those_of_a_look_are_shown_without_a_signal(panel):
+    emitted = heard_from(panel.peel.valueChanged)
     type_into(named(panel, QSpinBox, PEEL), "3")
-    assert named(panel, QSlider, PEEL).value() == 3
-    assert emitted == [1, 3]
     panel.set_look(Look(show=Show(peel=2)), 1)
-    assert named(panel, SliderBox, PEEL).value() == 2
-    assert emitted == [1, 3]
+    assert named(panel, QSpinBox, PEEL).value() == 2
+    assert set(emitted) == {3}
 
 
 def test_peeling_is_disabled_if_all_hexes_are_on_the_boundary(panel):
     panel.set_layers(0)
-    assert not named(panel, SliderBox, PEEL).isEnabled()
-    assert "every hex has a face on the boundary" in named(panel, SliderBox, PEEL).toolTip()
+    assert not named(panel, QSpinBox, PEEL).isEnabled()
+    assert "every hex has a face on the boundary" in named(panel, QSpinBox, PEEL).toolTip()
     panel.set_layers(2)
-    assert named(panel, SliderBox, PEEL).isEnabled()
-    assert "Hide the outer layers" in named(panel, SliderBox, PEEL).toolTip()
+    assert named(panel, QSpinBox, PEEL).isEnabled()
+    assert "Hide the outer layers" in named(panel, QSpinBox, PEEL).toolTip()
 
 
 def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QTableView
 
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from tests.app.driving import key, named, open_and_wait
+from tests.app.driving import named, open_and_wait
 from tests.app.features.session.test_feature import work
 from tests.app.test_resetting import live, session_of
 
@@ -45,25 +45,6 @@ def test_a_session_restores_the_whole_window(window, fresh_window, qtbot, tmp_pa
     open_and_wait(qtbot, fresh_window, path)
     at_rest(fresh_window, qtbot)
     np.testing.assert_equal(session_of(fresh_window, tmp_path / "after.hexmend"), before)
-
-
-def test_the_pose_history_is_restored(window, qtbot, tmp_path):
-    poses = []
-    for direction in ("+x", "-y", "+z"):
-        window.canvas.look_along(direction)
-        at_rest(window, qtbot)
-        poses.append(window.canvas.pose)
-    key(window, Qt.Key.Key_Left, Qt.KeyboardModifier.AltModifier)
-    at_rest(window, qtbot)
-    path = saved(window, tmp_path)
-    window.canvas.look_along("iso")
-    open_and_wait(qtbot, window, path)
-    at_rest(window, qtbot)
-    assert window.canvas.pose == poses[1]
-    for action, pose in (("view_forward", poses[2]), ("view_back", poses[1]), ("view_back", poses[0])):
-        window.action(action).trigger()
-        at_rest(window, qtbot)
-        assert window.canvas.pose.position == pytest.approx(pose.position)
 
 
 INVALID = [
