@@ -26,8 +26,6 @@ class LayerSwitch:
         Shortcut.
     order : int
         Position in panel and menu.
-    offered_early : bool
-        Allow switching the layer on before its content has been counted.
     hidden_when_empty : bool
         Hide the row in the panel if the mesh has nothing to draw.
     drawn_by : type, optional
@@ -42,7 +40,6 @@ class LayerSwitch:
     action_help: str = ""
     keys: str = ""
     order: int = 100
-    offered_early: bool = False
     hidden_when_empty: bool = False
     drawn_by: type | None = None
 

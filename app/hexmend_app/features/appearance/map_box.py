@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
+from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
-from hexmend_app.theme.palette import LINE
-from hexmend_app.theme.style import on_theme_change, set_help
+from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 
@@ -34,7 +33,6 @@ class MapBox(ComboBox):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setIconSize(_SWATCH)
         self.activated.connect(self._on_activated)
-        on_theme_change(self, self._paint_swatches)
 
     def show_map(self, name: str, change: bool) -> None:
         """List the maps of values, or the diverging map if `change`, and select a map by name."""
@@ -42,9 +40,8 @@ class MapBox(ComboBox):
         if self.findData(maps[0]) < 0:
             self.clear()
             for at, key in enumerate(maps):
-                self.addItem(tr(COLOUR_MAPS[key].title) or key, key)
+                self.addItem(_swatch(key), tr(COLOUR_MAPS[key].title) or key, key)
                 self.setItemData(at, tr(COLOUR_MAPS[key].help), Qt.ItemDataRole.ToolTipRole)
-            self._paint_swatches()
         self.setCurrentIndex(max(self.findData(name), 0))
         set_help(self, tr("Colour map"), tr(COLOUR_MAPS[CHANGE_MAP].help) if change else tr(_VALUE_MAPS_HELP))
 
@@ -52,21 +49,9 @@ class MapBox(ComboBox):
         if self.currentData() in value_maps():
             self.chosen.emit(self.currentData())
 
-    def _paint_swatches(self) -> None:
-        for at in range(self.count()):
-            self.setItemIcon(at, _swatch(self.itemData(at)))
-
 
 def _swatch(name: str) -> QIcon:
     """Return an icon of a map, drawn at four times its size so that it is sharp at any scale."""
-    colours = np.ascontiguousarray(COLOUR_MAPS[name].table[None].repeat(4 * _SWATCH.height(), axis=0))
-    height, width, _ = colours.shape
-    pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))
-    pixmap = pixmap.scaled(
-        _SWATCH * 4, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
-    )
-    painter = QPainter(pixmap)
-    painter.setPen(QColor(str(LINE)))
-    painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
-    painter.end()
-    return QIcon(pixmap)
+    colours = np.ascontiguousarray(COLOUR_MAPS[name].table[None])
+    image = QImage(colours.tobytes(), colours.shape[1], 1, 3 * colours.shape[1], QImage.Format.Format_RGB888)
+    return QIcon(QPixmap.fromImage(image.scaled(_SWATCH * 4)))

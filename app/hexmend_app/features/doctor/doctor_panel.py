@@ -5,61 +5,47 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import scrolled
 from hexmend_app.widgets.link_label import LinkLabel
-
-_CHECKING = "Checking the mesh…"
 
 
 class DoctorPanel(QWidget):
     """Panel that lists findings, and says what helps against inverted hexes.
 
-    Signals
-    -------
-    show_requested(int)
-        The user follows the link Show of the finding with this index.
-    repair_requested(list)
-        The user repairs these kinds of problem; an empty list means all.
-    smooth_requested, pad_requested
-        The user follows one of these links.
+    Attributes
+    ----------
+    text : LinkLabel
+        Its links are "show" with the index of a finding, "repair" with a kind of problem or alone for all problems,
+        "smooth" and "pad".
     """
-
-    show_requested = Signal(int)
-    repair_requested = Signal(list)
-    smooth_requested = Signal()
-    pad_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.text = LinkLabel()
         self.text.setWordWrap(True)
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.text.setMargin(8)
         self.text.setAccessibleName(tr("Findings"))
         self.text.setTextInteractionFlags(
             self.text.textInteractionFlags() | Qt.TextInteractionFlag.TextSelectableByMouse
         )
-        self.text.linkActivated.connect(self._follow)
-        self._all = QPushButton(icon("bandage"), tr("Repair all"))
-        set_help(self._all, tr("Repair all"), tr("Repair all problems that can be repaired. Can be undone."))
-        self._all.clicked.connect(lambda: self.repair_requested.emit([]))
-        self._notes = note()
-        self._notes.hide()
-        inside = QWidget()
-        head = fill(QHBoxLayout(), (self._notes, 1), None, self._all)
-        fill(QVBoxLayout(inside), head, (self.text, 1), margins=(8, 8, 8, 8))
-        fill(QVBoxLayout(self), scrolled(inside), margins=(0, 0, 0, 0))
+        fill(QVBoxLayout(self), scrolled(self.text), margins=(0, 0, 0, 0))
         self.show_findings(None)
 
     def show_findings(
-        self, findings: Sequence[Finding] | None, problem: str = "", mesh: Mesh | None = None, inverted: int = 0
+        self,
+        findings: Sequence[Finding] | None,
+        problem: str = "",
+        mesh: Mesh | None = None,
+        inverted: int = 0,
+        notes: Sequence[str] = (),
     ) -> None:
         """List the findings in a mesh.
 
@@ -72,10 +58,14 @@ class DoctorPanel(QWidget):
         mesh : Mesh, optional
         inverted : int
             Number of inverted hexes, which are no finding of the doctor.
+        notes : sequence of str
+            What was changed when the file was read.
         """
         paragraphs = []
+        if notes:
+            paragraphs.append(escape(tr("Changed on reading: {changes}", changes=" ".join(notes))))
         if findings is None:
-            paragraphs.append(escape(problem or tr(_CHECKING)))
+            paragraphs.append(escape(problem or tr("Checking the mesh…")))
         if inverted:
             links = {"smooth": f'<a href="smooth">{tr("Smooth")}</a>', "pad": f'<a href="pad">{tr("Pad")}</a>'}
             hexes = tr("1 hex is") if inverted == 1 else tr("{count:,} hexes are", count=inverted)
@@ -83,26 +73,9 @@ class DoctorPanel(QWidget):
         elif findings is not None and not findings:
             paragraphs.append(tr("No problems found."))
         paragraphs += [_paragraph(at, finding, mesh) for at, finding in enumerate(findings or ())]
+        if sum(finding.mendable for finding in findings or ()) > 1:
+            paragraphs.append(f'&#8203;<a href="repair">{tr("Repair all")}</a>')
         self.text.setText("".join(f'<p style="margin: 0 0 8px">{text}</p>' for text in paragraphs))
-        self._all.setVisible(sum(finding.mendable for finding in findings or ()) > 1)
-
-    def show_notes(self, notes: Sequence[str]) -> None:
-        """Show what was changed when the file was read."""
-        self._notes.setText(tr("Changed on reading: {changes}", changes=" ".join(notes)))
-        self._notes.setVisible(bool(notes))
-
-    def set_busy(self, busy: bool) -> None:
-        """Disable repairs while the mesh cannot be edited."""
-        self._all.setEnabled(not busy)
-
-    def _follow(self, link: str) -> None:
-        command, _, argument = link.partition(" ")
-        if command == "show":
-            self.show_requested.emit(int(argument))
-        elif command == "repair":
-            self.repair_requested.emit([argument])
-        else:
-            (self.smooth_requested if command == "smooth" else self.pad_requested).emit()
 
 
 def _paragraph(at: int, finding: Finding, mesh: Mesh | None) -> str:

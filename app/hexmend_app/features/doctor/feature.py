@@ -21,10 +21,7 @@ class FeatureDoctor(Feature):
         self._seen = ChangeTracker()
         self._listed: tuple[Finding, ...] = ()
         self.panel = DoctorPanel()
-        self.panel.show_requested.connect(self._show)
-        self.panel.repair_requested.connect(self._repair)
-        self.panel.smooth_requested.connect(lambda: host.show_panel("run"))
-        self.panel.pad_requested.connect(lambda: host.action("pad").trigger())
+        self.panel.text.linkActivated.connect(self._follow)
         ChangeReport(
             host,
             self.session.repairer,
@@ -55,7 +52,7 @@ class FeatureDoctor(Feature):
                 section=1,
                 icon="bandage",
                 help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
-                handle=lambda: self._repair([]),
+                handle=lambda: self.session.commands.repair([]),
                 enabled=lambda: self.session.editable and self._can_repair(),
             ),
         )
@@ -76,22 +73,32 @@ class FeatureDoctor(Feature):
     def refresh(self) -> None:
         """List the findings of the current mesh if the panel is visible."""
         session = self.session
-        self.panel.set_busy(not session.editable)
         if not session.document.is_open or not self.panel.isVisible() or session.run.busy:
             return
         mesh = session.document.now.mesh
-        self.panel.show_notes(session.document.start.mesh.notes)
         session.mesh_checker.ask(mesh)
         findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
-        if self._seen.changed("findings", findings, error, mesh):
+        notes = session.document.start.mesh.notes
+        if self._seen.changed("findings", findings, error, mesh, notes):
             self._listed = findings or ()
             problem = tr("Mesh not checked: {error}", error=error) if error else ""
-            self.panel.show_findings(findings, problem, mesh, session.document.now.summary.inverted)
+            self.panel.show_findings(findings, problem, mesh, session.document.now.summary.inverted, notes)
 
     def _can_repair(self) -> bool:
         """Return True unless the doctor has found nothing that can be repaired."""
         findings = self.session.mesh_checker.of(self.session.document.now.mesh)
         return findings is None or any(finding.mendable for finding in findings)
+
+    def _follow(self, link: str) -> None:
+        command, _, argument = link.partition(" ")
+        if command == "show":
+            self._show(int(argument))
+        elif command == "smooth":
+            self.host.show_panel("run")
+        elif command == "pad":
+            self.host.action("pad").trigger()
+        else:
+            self.session.commands.repair([argument] if argument else [])
 
     def _show(self, row: int) -> None:
         finding, mesh = self._listed[row], self.session.document.now.mesh
@@ -103,9 +110,6 @@ class FeatureDoctor(Feature):
         if len(hexes):
             self.session.view.isolate(hexes.tolist())
             self.session.selection.visit(*hexes.tolist())
-
-    def _repair(self, kinds: list[str]) -> None:
-        self.session.commands.repair(kinds)
 
     def _on_ended(self, repaired: tuple[Finding, ...]) -> None:
         messages = " ".join(finding.message for finding in repaired)

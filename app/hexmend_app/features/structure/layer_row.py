@@ -25,8 +25,6 @@ class LayerRow:
         Text of the check box, and its tooltip.
     reason : str
         Tooltip if the layer is empty.
-    offered_early : bool
-        True if the layer can be switched on before its contents are known.
     hidden_when_empty : bool
         True if the row is hidden while the layer is empty.
 
@@ -36,9 +34,9 @@ class LayerRow:
     entries : QWidget
     """
 
-    def __init__(self, name: str, help: str, reason: str, offered_early: bool = False, hidden_when_empty: bool = False):
+    def __init__(self, name: str, help: str, reason: str, hidden_when_empty: bool = False):
         self._name, self._help, self._reason = name, help, reason
-        self._offered_early, self._hidden_when_empty = offered_early, hidden_when_empty
+        self._hidden_when_empty = hidden_when_empty
         self._entries: list[Entry] | None = []
         self._error: BaseException | None = None
         self.box = QCheckBox(name)
@@ -60,18 +58,16 @@ class LayerRow:
         self._enable()
 
     def _enable(self) -> None:
-        failed = self._error is not None
-        waiting = self._entries is None and not self._offered_early
-        offered = bool(self._entries) or (self._entries is None and self._offered_early and not failed)
+        # A layer that is on before its contents are known is drawn once they are.
+        offered = bool(self._entries) or (self._entries is None and self._error is None)
         # A layer that is on can be switched off.
         self.box.setEnabled(offered or (self.box.isChecked() and not self._hidden_when_empty))
         if self._hidden_when_empty:
             self.box.setVisible(offered)
             self.entries.setVisible(offered)
-        if failed:
+        reason = self._reason
+        if self._error is not None:
             reason = tr("Not counted: {error}.", error=str(self._error).rstrip("."))
-        else:
-            reason = tr("Counting.") if waiting else self._reason
         set_help(self.box, self._name, self._help if offered else reason)
 
 

@@ -56,9 +56,7 @@ class StructurePanel(QWidget):
         self._between = 0
         self._classes: BoundaryClasses | None = None
         self.layers = {
-            switch.name: LayerRow(
-                tr(switch.title), tr(switch.help), tr(switch.empty), switch.offered_early, switch.hidden_when_empty
-            )
+            switch.name: LayerRow(tr(switch.title), tr(switch.help), tr(switch.empty), switch.hidden_when_empty)
             for switch in ordered_layers()
         }
         grid = QGridLayout(self)

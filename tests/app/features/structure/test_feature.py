@@ -114,16 +114,15 @@ def panel(qtbot):
     return panel
 
 
-def test_only_layers_of_nodes_are_enabled_before_the_edges_are_found(panel):
+def test_layers_are_offered_before_their_contents_are_counted(panel):
     assert texts(panel, "irregular") == []
     panel.set_found(None)
     panel.set_classes(None)
     panel.set_nodes(8, 1, 3, 2)
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     offered = [name for name, on in panel.offered().items() if on]
-    assert offered == ["fixed", "free", "locked", "kinds", "original"]
+    assert offered == ["irregular", "boundary", "sharp", "fixed", "free", "locked", "kinds", "original"]
     assert texts(panel, "irregular") == ["counting…"]
-    assert "Counting." in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
     assert texts(panel, "locked") == ["of 2 hexes"]
 

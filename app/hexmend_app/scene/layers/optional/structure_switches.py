@@ -82,7 +82,6 @@ for _switch in (
         action_help="Show boundary nodes by how they may move on a sliding boundary, and those that have left it.",
         keys="J",
         order=70,
-        offered_early=True,
     ),
     LayerSwitch(
         "curved",
