@@ -7,14 +7,14 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QStackedLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QStackedLayout, QVBoxLayout, QWidget
 from superqt import QFlowLayout
 
 from hexmend.quality import Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, icon, note, on_theme_change, set_help, tabular, tint
+from hexmend_app.theme.style import bold, check_box, icon, note, on_theme_change, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
@@ -58,9 +58,8 @@ class HexPanel(QWidget):
         self._title, self._state, self._about_node = QLabel(), QLabel(), QLabel()
         self._title.setFont(bold(self._title.font()))
         tint(self._state, INVERTED_TEXT)
-        self.corners_box = QCheckBox(tr("Corner qualities in the view"))
         text = tr("Show q(T) at the corners of the hex in the view.")
-        set_help(self.corners_box, tr("Corner qualities in the view"), text)
+        self.corners_box = check_box(tr("Corner qualities in the view"), text)
         self.zoom_button = QPushButton(icon("target"), tr("Zoom to hex"))
         text = tr("Move the camera to the hex; Enter or a double-click in the list of the worst does the same.")
         set_help(self.zoom_button, tr("Zoom to hex"), text)
@@ -72,8 +71,8 @@ class HexPanel(QWidget):
         rows = -(-len(metrics) // _METRIC_COLUMNS)
         self._metrics = [(metrics[first : first + rows], QLabel()) for first in range(0, len(metrics), rows)]
         set_help(self._about_node, tr("Node"), tr(_NODE_HELP))
-        self._pin = QCheckBox(tr("Pinned"))
-        set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
+        text = tr("Keep this node in place in every method, also on a sliding boundary.")
+        self._pin = check_box(tr("Pinned"), text)
         self._pin.clicked.connect(self._on_pin)
         self._lay_out()
         on_theme_change(self, self._show_tables)

@@ -7,14 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt, Signal
 from PySide6.QtGui import QAction, QShowEvent
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QHBoxLayout,
-    QPushButton,
-    QTableView,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
@@ -22,13 +15,18 @@ from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, ID, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, labelled, note, set_help
+from hexmend_app.theme.style import check_box, icon_button, labelled, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import counted
+
+_ORDER = (
+    "Metric that sorts the list after inverted hexes and those that are invalid inside, which come first; hexes of "
+    "equal value are sorted by scaled Jacobian."
+)
 
 
 @dataclass(frozen=True)
@@ -67,27 +65,15 @@ class WorstList(QWidget):
         for metric in metrics_offered():
             self._metric.addItem(tr(metric.title), metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
-        set_help(
-            self._metric,
-            tr("Worst by"),
-            tr(
-                "Metric that sorts the list after inverted hexes and those that are invalid inside, which come first; "
-                "hexes of equal value are sorted by scaled Jacobian."
-            ),
-        )
+        set_help(self._metric, tr("Worst by"), tr(_ORDER))
         self._metric.currentIndexChanged.connect(self._begin_again)
         self._metric.currentIndexChanged.connect(self._refresh)
         self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
-        self._isolate = QCheckBox(tr("Isolate"))
-        self._isolate.setChecked(True)
-        set_help(
-            self._isolate,
-            tr("Isolate"),
-            tr("Show only the selected hex and its neighbours; Esc shows all hexes again."),
-        )
+        help = tr("Show only the selected hex and its neighbours; Esc shows all hexes again.")
+        self._isolate = check_box(tr("Isolate"), help, on=True)
         self._previous, self._next = ActionButton("chevron-up"), ActionButton("chevron-down")
-        self.save_button = QPushButton(icon("content-save-outline"), "")  # no text: the dock is narrow
-        set_help(self.save_button, tr("Save list"), tr("Save the list as CSV, one line per hex."))
+        help = tr("Save the list as CSV, one line per hex.")
+        self.save_button = icon_button("content-save-outline", tr("Save list"), help)
         self._model = WorstModel(self)
         self._table = self._make_table()
         self._text = note()
@@ -204,10 +190,9 @@ class WorstList(QWidget):
             return
         metric = METRICS[self.chosen_metric]
         worst = WorstHexes.of(mesh, figures, metric.name)
-        self._model.metric = tr(metric.title)
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
-        self._model.fill(worst)
+        self._model.fill(worst, tr(metric.title))
         counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted, "invalid": figures.n_invalid}
         if worst.hexes.size == mesh.n_hexes:
             text = tr("{total}, {inverted:,} inverted, {invalid:,} invalid.", **counts)

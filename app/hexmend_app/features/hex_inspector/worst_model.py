@@ -31,27 +31,22 @@ class WorstModel(RowModel):
 
     Attributes
     ----------
-    values, jacobians : (k,) float64
-        Values of the metric that sorts the list, and scaled Jacobians.
-    states : list of str
-        "locked", "inverted", "inside" (invalid inside) or "" for each hex.
-    ids : (k,) int, optional
-        Numbers of the hexes in the file.
+    worst : WorstHexes
+        The hexes, whose numbers are the rows.
     metric : str
-        Title of the metric.
+        Title of the metric that sorts the list.
     """
+
+    worst: WorstHexes
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(len(_TITLES), (STATE,), parent)
         self.rows = np.empty(0, np.int64)
-        self.values = self.jacobians = np.empty(0)
-        self.states: list[str] = []
-        self.ids: np.ndarray | None = None
         self.metric = ""
 
-    def fill(self, worst: WorstHexes) -> None:
-        """Replace the rows, which are numbers of hexes, (k,) int64."""
-        self.values, self.jacobians, self.states, self.ids = worst.values, worst.jacobians, worst.states, worst.ids
+    def fill(self, worst: WorstHexes, metric: str) -> None:
+        """Show the worst hexes by the metric with a title."""
+        self.worst, self.metric = worst, metric
         self.set_rows(worst.hexes, len(worst.hexes) == len(self.rows))
 
     def title(self, column: int) -> str:
@@ -59,15 +54,15 @@ class WorstModel(RowModel):
         return self.metric if column == VALUE else tr(_TITLES[column])
 
     def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        row, column = index.row(), index.column()
+        row, column, worst = index.row(), index.column(), self.worst
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
-                return str(self.rows[row])
+                return str(worst.hexes[row])
             if column == ID:
-                return "" if self.ids is None else str(self.ids[row])
+                return "" if worst.ids is None else str(worst.ids[row])
             if column == STATE:
-                return tr(self.states[row])
-            return figure(float((self.values if column == VALUE else self.jacobians)[row]))
+                return tr(worst.states[row])
+            return figure(float((worst.values if column == VALUE else worst.jacobians)[row]))
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self.alignment(column)
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:

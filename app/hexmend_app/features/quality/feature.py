@@ -43,16 +43,6 @@ class FeatureQuality(Feature):
                 checked=settings.KEY_FIGURES.get,
             ),
             Action(
-                id="all_figures",
-                text=tr("All &quality figures"),
-                menu="View",
-                section=3,
-                help=tr("Show all quality figures below the key figures, at the start and now."),
-                handle=lambda on: self.bar.all_button.setChecked(on),
-                checked=self.bar.all_button.isChecked,
-                enabled=lambda: not self.bar.isHidden(),
-            ),
-            Action(
                 id="copy_figures",
                 text=tr("Copy quality figures"),
                 help=tr("Copy all quality figures, at the start and now, as a table for a spreadsheet."),

@@ -48,7 +48,6 @@ class QualityBar(QFrame):
         self.table.hide()
         self.all_button = tool_button("chevron-down", MUTED)
         self.all_button.setCheckable(True)
-        self.all_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # an action does the same
         self.all_button.setIconSize(QSize(14, 14))
         set_help(self.all_button, tr("All figures"), tr("Show all quality figures, at the start and now."))
         self.all_button.toggled.connect(self._expand)

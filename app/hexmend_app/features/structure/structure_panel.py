@@ -52,8 +52,7 @@ class StructurePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._structure = Structure()
-        self._counts: tuple[int, ...] = ()
-        self._between = 0
+        self._locked = 0
         self._classes: BoundaryClasses | None = None
         self.layers = {
             switch.name: LayerRow(tr(switch.title), tr(switch.help), tr(switch.empty), switch.hidden_when_empty)
@@ -95,11 +94,7 @@ class StructurePanel(QWidget):
 
     def set_nodes(self, boundary: int, pinned: int, free: int, locked: int, between: int = 0) -> None:
         """Show the numbers of boundary, pinned and free nodes, of locked hexes, and of nodes between materials."""
-        counts = (boundary, pinned, free, locked)
-        if (counts, between) == (self._counts, self._between):
-            return
-        self._between = between
-        self._counts = counts
+        self._locked = locked
         fixed: list[Entry] = [(BOUNDARY, False, tr("{count:,} boundary", count=boundary))] if boundary else []
         if between:
             fixed.append((BOUNDARY, False, tr("{count:,} between materials", count=between)))
@@ -134,7 +129,7 @@ class StructurePanel(QWidget):
 
     def _show_locked(self) -> None:
         """Show the number of locked hexes and, once known, how many of them sliding frees."""
-        locked, classes = self._counts[-1] if self._counts else 0, self._classes
+        locked, classes = self._locked, self._classes
         entries: list[Entry] = [(LOCKED, False, tr("of {hexes}", hexes=counted(locked, "hex")))] if locked else []
         if locked and classes is not None and classes.locked == locked:
             entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
