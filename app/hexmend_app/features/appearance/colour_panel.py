@@ -7,7 +7,7 @@ from html import escape
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QCheckBox, QLabel, QSizePolicy, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
@@ -17,10 +17,9 @@ from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import WORSE
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import check_box, labelled, note, set_help, show_text
+from hexmend_app.theme.style import check_box, note, set_help, show_text
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
+from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -93,18 +92,13 @@ class ColourPanel(QWidget):
         self._show_ends()
 
     def _lay_out(self) -> None:
-        grid = form_grid(self)
-        for row, (text, widget) in enumerate(((tr("Colours"), self._metric), (tr("Map"), self._map))):
-            grid.addWidget(labelled(text, widget), row, 0)
-            grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
-        grid.addWidget(self._range, 2, 0, 1, 3)  # four texts need the whole width
-        grid.addWidget(self._reverse, 1, 2)
-        self.setTabOrder(self._map, self._reverse)
-        numbers = fill(QHBoxLayout(), (self._low, 1), QLabel(tr("to")), (self._high, 1), spacing=4)
-        grid.addLayout(numbers, 3, 0, 1, 3)
-        options = fill(QHBoxLayout(), self._neutral, self.shading, None, spacing=16)
-        grid.addLayout(options, 4, 0, 1, 3)
-        grid.addWidget(self._problem, 5, 0, 1, 3)
+        form = form_layout(self)
+        form.addRow(tr("Colours"), self._metric)
+        form.addRow(tr("Map"), row_of((self._map, 1), self._reverse))
+        form.addRow(self._range)  # four texts need the whole width
+        form.addRow(row_of((self._low, 1), QLabel(tr("to")), (self._high, 1)))
+        form.addRow(row_of(self._neutral, 8, self.shading, None))
+        form.addRow(self._problem)
 
     def set_colours(self, colours: Colours) -> None:
         """Show colours; emits no signal."""

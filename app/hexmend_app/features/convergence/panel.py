@@ -17,7 +17,7 @@ from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import note
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import scrolled
+from hexmend_app.widgets.form import scrolled
 
 _EMPTY = "No runs yet. Values of each iteration will appear here."
 

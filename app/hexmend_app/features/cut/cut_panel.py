@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QFormLayout, QPushButton, QTabBar, QWidget
+from PySide6.QtWidgets import QPushButton, QTabBar, QWidget
 
-from hexmend_app.features.cut.number_row import NumberRow, row_of
+from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.features.cut.plane_editor import PlaneEditor
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Sphere
-from hexmend_app.theme.spacing import apply_spacing
 from hexmend_app.theme.style import check_box, icon_button, set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MAX_PLANES = 6
@@ -150,9 +150,7 @@ class CutPanel(QWidget):
             (tr("Hide"), self._hide_inside, (*box, *slab, *sphere, *depth)),
             ("", self._style, tuple(PLANE_KINDS)),
         )
-        form = self._form = apply_spacing(QFormLayout(self))
-        form.setContentsMargins(0, 0, 0, 0)
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form = self._form = form_layout(self)
         form.addRow(row_of(self._switch, None, self.handles_box))
         for text, widget, _ in self._rows:
             form.addRow(text, widget) if text else form.addRow(widget)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import check_box, icon_button, labelled, narrow, note, set_help, tabular
+from hexmend_app.theme.style import check_box, icon_button, narrow, note, set_help, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
+from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
 from hexmend_app.widgets.wording import counted
 
@@ -81,16 +80,14 @@ class InsidePanel(QWidget):
         self.set_shown(0, 0)
 
     def _lay_out(self) -> None:
-        grid = form_grid(self)
-        for row, (text, widget) in enumerate(
-            ((tr("Peel"), self.peel), (tr("Shrink"), self._shrink), (tr("Rings"), self.rings))
-        ):
-            grid.addWidget(labelled(text, widget), row, 0)
-            grid.addWidget(widget, row, 1)
-        grid.addLayout(fill(QHBoxLayout(), (self.isolated, 1), self.all_button), 3, 0, 1, 2)
-        grid.addLayout(fill(QHBoxLayout(), (self.dug, 1), self.undo_button, self.restore_button), 4, 0, 1, 2)
-        grid.addWidget(self.outline, 5, 0, 1, 2)
-        grid.addWidget(self.shown, 6, 0, 1, 2)
+        form = form_layout(self)
+        form.addRow(tr("Peel"), self.peel)
+        form.addRow(tr("Shrink"), self._shrink)
+        form.addRow(tr("Rings"), self.rings)
+        form.addRow(row_of((self.isolated, 1), self.all_button))
+        form.addRow(row_of((self.dug, 1), self.undo_button, self.restore_button))
+        form.addRow(self.outline)
+        form.addRow(self.shown)
 
     def set_layers(self, layers: int) -> None:
         """Set the number of layers that can be peeled; emits no signal."""

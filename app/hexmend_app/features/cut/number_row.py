@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend.parameters import Parameter
-from hexmend_app.theme.spacing import Part, fill
+from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.inputs.number_box import NumberBox
 
@@ -77,10 +77,3 @@ class NumberRow(QWidget):
 
 def _rounded(value: float) -> float:
     return float(f"{value:.{_DIGITS}g}")
-
-
-def row_of(*parts: Part) -> QWidget:
-    """Return a row of a form with several widgets."""
-    row = QWidget()
-    fill(QHBoxLayout(row), *parts, margins=(0, 0, 0, 0), spacing=4)
-    return row

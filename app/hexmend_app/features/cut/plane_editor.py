@@ -9,10 +9,11 @@ import numpy as np
 from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QSlider
 
-from hexmend_app.features.cut.number_row import NumberRow, row_of
+from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.theme.style import icon_button, set_help
 from hexmend_app.translation import tr
+from hexmend_app.widgets.form import row_of
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}

@@ -12,7 +12,7 @@ from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.theme.spacing import fill
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import scrolled
+from hexmend_app.widgets.form import scrolled
 from hexmend_app.widgets.link_label import LinkLabel
 
 

@@ -19,7 +19,7 @@ from hexmend_app.theme.style import labelled, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.preview import Preview
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
-from hexmend_app.widgets.form_grid import scrolled
+from hexmend_app.widgets.form import scrolled
 from hexmend_app.widgets.inputs.combo import ComboBox
 
 #: Initial size of the dialog relative to the screen.

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QPushButton, QWi
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
-from hexmend_app.theme.style import labelled, note, set_help, tabular
+from hexmend_app.theme.style import note, set_help, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
+from hexmend_app.widgets.form import form_layout
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.wording import counted, figure, short_number
 
@@ -74,13 +74,12 @@ class MovementPanel(QWidget):
         self._drawn, self._counts = note(), note()
         self._drawn.setAccessibleName(tr("Number of arrows"))
         self._counts.setAccessibleName(tr("Counts of the movement"))
-        grid = form_grid(self)
-        rows = ((tr("Since"), self.since), (tr("Arrows"), self.arrows), (tr("Length"), self.factor))
-        for row, (text, widget) in enumerate(rows):
-            grid.addWidget(labelled(text, widget), row, 0)
-            grid.addWidget(widget, row, 1)
-        for row, widget in enumerate((self._drawn, self._counts, self.show_newly), start=len(rows)):
-            grid.addWidget(widget, row, 0, 1, 2)
+        form = form_layout(self)
+        form.addRow(tr("Since"), self.since)
+        form.addRow(tr("Arrows"), self.arrows)
+        form.addRow(tr("Length"), self.factor)
+        for widget in (self._drawn, self._counts, self.show_newly):
+            form.addRow(widget)
         self.since.activated.connect(lambda: self._change(since=Since(self.since.currentData())))
         self.arrows.activated.connect(lambda: self._change(arrows=Arrows(self.arrows.currentData())))
         self.factor.valueChanged.connect(lambda value: self._change(factor=value))

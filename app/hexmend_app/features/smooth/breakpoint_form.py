@@ -6,9 +6,9 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.state.run.breakpoints import Breakpoints
-from hexmend_app.theme.style import labelled, set_help, tabular
+from hexmend_app.theme.style import set_help, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form_grid import form_grid
+from hexmend_app.widgets.form import form_layout
 
 _INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
 _FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
@@ -51,20 +51,15 @@ class BreakpointForm(QWidget):
             tr("Use selected hex and node"),
             tr("Pause at changes of the hex and the node that are selected in the view."),
         )
-        grid = form_grid(self)
-        grid.addWidget(self._inverts, 0, 0, 1, 2)
-        grid.addWidget(self._falls, 1, 0, 1, 2)
-        rows = (
-            (tr("Node no."), self._node),
-            (tr("   moves more than"), self._move),
-            (tr("Hex no."), self._hex),
-            (tr("   changes more than"), self._change),
-            (tr("Backtracks above"), self._backtracks),
-        )
-        for row, (text, box) in enumerate(rows, start=2):
-            grid.addWidget(labelled(text, box), row, 0)
-            grid.addWidget(box, row, 1)
-        grid.addWidget(self._use_selected, len(rows) + 2, 0, 1, 2)
+        form = form_layout(self)
+        form.addRow(self._inverts)
+        form.addRow(self._falls)
+        form.addRow(tr("Node no."), self._node)
+        form.addRow(tr("   moves more than"), self._move)
+        form.addRow(tr("Hex no."), self._hex)
+        form.addRow(tr("   changes more than"), self._change)
+        form.addRow(tr("Backtracks above"), self._backtracks)
+        form.addRow(self._use_selected)
         self._use_selected.clicked.connect(self._on_use_selected)
         for check in (self._inverts, self._falls):
             check.clicked.connect(self._on_changed)
