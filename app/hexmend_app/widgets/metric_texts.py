@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from html import escape
+
 from hexmend.quality import METRICS, HexQuantity, Metric
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import figure
@@ -13,18 +16,15 @@ def metrics_offered() -> list[Metric]:
 
 
 def described(metric: HexQuantity) -> str:
-    """Return the tooltip of a metric: formula, meaning, acceptable range and source."""
+    """Return the tooltip of a quantity as rich text: formula, meaning, acceptable range and source."""
+    lines = [f"<b>{escape(tr(metric.title))}</b>: {escape(tr(metric.formula))}.", escape(tr(metric.meaning))]
     low, high = metric.acceptable
-    return tr(
-        "<qt><b>{title}</b>: {formula}.<br>{meaning}<br>Acceptable from {low} to {high} {unit}. <i>{source}</i></qt>",
-        title=tr(metric.title),
-        formula=tr(metric.formula),
-        meaning=tr(metric.meaning),
-        low=_bound(low),
-        high=_bound(high),
-        unit=metric.unit and tr(metric.unit),
-        source=metric.source,
-    )
+    if math.isfinite(low) or math.isfinite(high):
+        acceptable = tr("Acceptable from {low} to {high}", low=_bound(low), high=_bound(high))
+        unit = f" {tr(metric.unit)}" if metric.unit else ""
+        direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[metric.better]
+        lines.append(f"{acceptable}{unit}. {direction}")
+    return "<br>".join([*lines, f"<i>{escape(metric.source)}</i>"])
 
 
 def _bound(value: float) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from html import escape
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
@@ -15,7 +14,7 @@ from hexmend_app.features.appearance.map_box import MapBox
 from hexmend_app.picture.colours import MATERIAL, Colours, Range, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import range_label
-from hexmend_app.scene.colour.value_range import better, declared_range
+from hexmend_app.scene.colour.value_range import declared_range
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.style import check_box, note, set_help, show_text
 from hexmend_app.translation import tr
@@ -23,7 +22,7 @@ from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
-from hexmend_app.widgets.metric_texts import metrics_offered
+from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.wording import short_number
 
 #: Key of the range between two numbers.
@@ -63,7 +62,7 @@ class ColourPanel(QWidget):
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL):
             self._metric.addItem(tr(metric.title), metric.name)
-            self._metric.setItemData(self._metric.count() - 1, _description(metric.name), Qt.ItemDataRole.ToolTipRole)
+            self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
         self._metric.insertSeparator(self._metric.count() - 1)
         self._map = MapBox()
@@ -193,7 +192,7 @@ class ColourPanel(QWidget):
     def _refresh(self) -> None:
         colours = self._colours
         self._metric.setCurrentIndex(self._metric.findData(colours.metric))
-        set_help(self._metric, tr("Metric"), _description(colours.metric))
+        set_help(self._metric, tr("Metric"), described(colour_quantity(colours.metric)))
         self._map.show_map(colours.map, change=colours.metric == "q-change")
         self._reverse.setChecked(colours.reverse)
         self._neutral.setChecked(colours.neutral)
@@ -211,23 +210,6 @@ class ColourPanel(QWidget):
         for box in (self._low, self._high):
             box.setEnabled(self._is_pinned and has_values)
         self._show_problem()
-
-
-def _description(name: str) -> str:
-    """Return the description of a metric as rich text."""
-    metric = colour_quantity(name)
-    if metric is MATERIAL:
-        lines = [f"<b>{escape(tr(metric.title))}</b>", escape(tr(metric.formula)), escape(tr(metric.meaning))]
-        return f"<qt>{'<br>'.join(lines)}</qt>"
-    direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
-    full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
-    lines = [
-        f"<b>{escape(tr(metric.title))}</b>",
-        escape(tr(metric.formula)),
-        tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
-        f"<i>{escape(metric.source)}</i>",
-    ]
-    return f"<qt>{'<br>'.join(lines)}</qt>"
 
 
 def _range_text(ends: tuple[float, float]) -> str:

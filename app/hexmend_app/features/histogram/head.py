@@ -114,7 +114,6 @@ class HistogramHead(QWidget):
         self.metric_box.setItemData(0, tr("Use the metric of the colours."), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
         set_help(self.metric_box, tr("Metric of the histogram"), described(metric))
-        self.metric_box.setToolTip(described(metric))
 
     def set_available(self, has_distribution: bool, full: bool) -> None:
         """Enable saving if there is a distribution, and keeping unless the legend is `full`."""

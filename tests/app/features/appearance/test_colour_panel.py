@@ -74,7 +74,7 @@ def test_every_metric_is_listed_with_its_description(panel):
         at = part(panel, "Metric").findData(name)
         tip = part(panel, "Metric").itemData(at, Qt.ItemDataRole.ToolTipRole)
         assert escape(metric.source) in tip
-        assert f"acceptable {metric.acceptable[0]:g} to" in tip
+        assert f"Acceptable from {metric.acceptable[0]:g} to" in tip
     tip = part(panel, "Metric").itemData(part(panel, "Metric").findData("long"), Qt.ItemDataRole.ToolTipRole)
     assert "1 to ∞" in tip
     assert "Lower is better" in tip
