@@ -68,23 +68,9 @@ def _other_meshes(restored: RestoredPicture) -> str:
 
 def _problem(mesh: RestoredMesh) -> str:
     """Explain why another mesh of a picture is not shown, or how it differs."""
+    reason = tr(mesh.problem, views=MAX_SIDE_VIEWS + 1, file=mesh.file, error=str(mesh.error).rstrip("."))
     if mesh.problem is RestoreProblem.PLACES:
-        return tr("“{name}” differs from the picture: {file} has other node positions.", name=mesh.name, file=mesh.file)
-    reason = {
-        RestoreProblem.NO_SPACE: tr(
-            "the window shows at most {max_side_views} views", max_side_views=MAX_SIDE_VIEWS + 1
-        ),
-        RestoreProblem.FILE: tr("{file} was not found", file=mesh.file)
-        if mesh.file
-        else tr("the picture does not contain the name of its file"),
-        RestoreProblem.READING: str(mesh.error).rstrip("."),
-        RestoreProblem.RUN: tr(
-            "it is an iteration or a result of a run on {file}, which is not stored in that file", file=mesh.file
-        ),
-        RestoreProblem.HEXES: tr(
-            "{file} has other hexes; side views must have the hexes of the main view", file=mesh.file
-        ),
-    }[mesh.problem]
+        return tr("“{name}” differs from the picture: {reason}.", name=mesh.name, reason=reason)
     return tr("“{name}” is not shown: {reason}.", name=mesh.name, reason=reason)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from enum import Enum
+from enum import StrEnum
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -18,18 +18,17 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, NOW
 
 
-class RestoreProblem(Enum):
+class RestoreProblem(StrEnum):
     """Why a mesh of a picture cannot be shown, or differs from the picture."""
 
-    NO_SPACE = "room"
-    FILE = "file"
-    READING = "reading"
-    RUN = "run"
-    """The picture shows an iteration or result of a run; the file contains the mesh before the run."""
-    HEXES = "hexes"
-    """The mesh has other hexes than the first mesh."""
-    PLACES = "places"
-    """The mesh is shown, but its node positions differ from the picture."""
+    NO_SPACE = "the window shows at most {views} views"
+    NAME = "the picture does not contain the name of its file"
+    FILE = "{file} was not found"
+    READING = "{error}"
+    RUN = "it is an iteration or a result of a run on {file}, which is not stored in that file"
+    HEXES = "{file} has other hexes; side views must have the hexes of the main view"
+    PLACES = "{file} has other node positions"
+    """The mesh is shown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +178,7 @@ def _read_mesh(
     """Read a mesh from its own file and restore it."""
     paths = pictured.candidates(picture)
     if not paths:
-        return RestoredMesh(name, pictured.file, problem=RestoreProblem.FILE)
+        return RestoredMesh(name, pictured.file, problem=RestoreProblem.FILE if pictured.file else RestoreProblem.NAME)
     on_read(paths[0])
     try:
         state = State.of(read(paths[0]))
