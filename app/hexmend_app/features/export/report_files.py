@@ -154,15 +154,20 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
 
 
 def run_recipe(session: Session) -> Recipe | None:
-    """Return the recipe of the last run if it led from the opened mesh to the current mesh, else None."""
-    work, document = session.run.work, session.document
-    moment = session.history.iteration_of(document.now)
-    if work is None or moment is None or moment.number != moment.record.result:
+    """Return the recipe of the runs that led from the opened mesh to the current mesh, else None."""
+    moment, recipes = session.history.iteration_of(session.document.now), list[Recipe]()
+    start = None
+    while moment is not None:
+        record, number = moment.record, moment.number
+        if number:
+            recipe = record.recipe_until(number)
+            if recipe is None:
+                return None
+            recipes.insert(0, recipe)
+        start, moment = record.start, record.parent
+    if not recipes or start.mesh.points is not session.document.start.mesh.points:
         return None
-    if moment.record.start.mesh.points is not document.start.mesh.points:
+    if any(recipe.rules != recipes[0].rules for recipe in recipes):
         return None
-    if isinstance(work, Recipe):
-        return work
-    stage = session.run_setup.active_stage or Stage(work)
-    stop = replace(stage.stop, max_iterations=moment.record.newest)  # the user may have stopped it
-    return Recipe.of(replace(stage, stop=stop), title=work.title, rules=moment.record.rules)
+    stages = [stage for recipe in recipes for stage in recipe.stages]
+    return Recipe.of(*stages, title=recipes[0].title if len(recipes) == 1 else "", rules=recipes[0].rules)
