@@ -25,8 +25,6 @@ from hexmend.solver_checks import QUOTED, SOLVERS
 from hexmend.solver_checks.solver import VALIDITY
 from hexmend_app.codec.option import Option, options_of
 from hexmend_app.picture import Scene
-from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.layer_switch import LAYERS, OWN_KEYS
 from hexmend_app.widgets.inputs.key_form import helps
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -156,7 +154,7 @@ def _keys(kind: type) -> str:
     """The keys of a table, and below each that is a table itself, its own; keys that are alike share a row."""
     rows = []
     for one in options_of(kind):
-        rows.append((f"`{one.name}`", _values(one), _help(kind, one) + _default(one)))
+        rows.append((f"`{one.name}`", _values(one), helps(kind)[one.field] + _default(one)))
         inner = _table_of(one.kind)
         if inner is not None:
             rows += [(f"`{one.name}.{key.name}`", _values(key), helps(inner)[key.field] + _default(key))
@@ -165,13 +163,6 @@ def _keys(kind: type) -> str:
     for name, *rest in rows:
         alike.setdefault(tuple(rest), []).append(name)
     return table(("key", "values", "what"), ((", ".join(keys), *rest) for rest, keys in alike.items()))
-
-
-def _help(kind: type, one: Option) -> str:
-    """Describe a key; the keys of layers are described by the layers."""
-    if kind is not Structure:
-        return helps(kind)[one.field]
-    return LAYERS[one.name].action_help if one.name in OWN_KEYS else "Names of other layers that are on."
 
 
 def _table_of(kind: Any) -> type | None:
@@ -190,7 +181,7 @@ def _values(one: Option) -> str:
             continue
         if _table_of(kind) is not None:
             words.append("tables" if get_origin(kind) is tuple else "a table")
-        elif get_origin(kind) is tuple and inner[0] is str:
+        elif inner and inner[0] is str:
             words.append("a list of names")
         elif get_origin(kind) in (tuple, frozenset):
             whole = "whole " * (inner[0] is int)

@@ -124,12 +124,9 @@ def parse_plane(text: str) -> Plane:
 
 def _parse_structure(text: str) -> Structure:
     names, known = text.split(","), [layer.name for layer in ordered_layers() if layer.name != "original"]
-    structure = Structure()
-    for name in names:
-        if name not in known:
-            raise invalid_value("--structure", text, f"names among {', '.join(known)}, separated by commas")
-        structure = structure.switched(name, True)
-    return structure
+    if not set(names).issubset(known):
+        raise invalid_value("--structure", text, f"names among {', '.join(known)}, separated by commas")
+    return Structure.of(*names)
 
 
 def _range_of(metric: str) -> Range | tuple[float, float]:

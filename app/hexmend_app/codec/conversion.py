@@ -49,7 +49,7 @@ def encode(value: Any, hooks: Hooks | None = None) -> Any:
         return value.values()
     kind: Any = type(value)
     if dataclasses.is_dataclass(value):
-        values = kind.to_keys(value) if hasattr(kind, "to_keys") else vars(value)
+        values = vars(value)
         return {o.name: encode(values[o.field], hooks) for o in options_of(kind) if not _is_default(values[o.field], o)}
     if isinstance(value, Mapping):
         return {name: encode(entry, hooks) for name, entry in value.items()}
@@ -150,7 +150,7 @@ class _Decoder:
             if issubclass(kind, Parametrised):
                 return from_values(kind, data)
             values = {known[name].field: self.value(known[name], one, (*where, name)) for name, one in data.items()}
-            return kind.from_keys(values) if hasattr(kind, "from_keys") else kind(**values)
+            return kind(**values)
         except DecodeError:
             raise
         except (HexmendError, ValueError) as error:

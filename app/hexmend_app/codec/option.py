@@ -98,12 +98,7 @@ def option(default: Any = None, **bounds: Any) -> Any:
 
 @cache
 def options_of(kind: Any) -> tuple[Option, ...]:
-    """Return the declarations of the keys of a table or another dataclass, in order.
-
-    They are its fields, unless it has a method `keys` that declares others, which `to_keys` and `from_keys` convert.
-    """
-    if hasattr(kind, "from_keys"):
-        return kind.keys()
+    """Return the declarations of the keys of a table or another dataclass, which are its fields, in order."""
     types = typing.get_type_hints(kind)
     return tuple(
         Option(

@@ -7,15 +7,14 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
-from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import Option, option
+from hexmend_app.codec.option import option
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT, OWN_KEYS
+from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT
 from hexmend_app.picture.page import LineStyle, Page
 from hexmend_app.picture.visibility import Show
 
@@ -68,18 +67,17 @@ class Traces:
 class Structure:
     """Layers over the mesh that are on.
 
-    In files, the layers of `OWN_KEYS` are keys that are true or false, and `extra` lists the names of the others.
-
     Parameters
     ----------
     on : frozenset of str
-        Names of `LAYERS`.
+        Names: irregular, boundary, sharp, fixed, free, locked, kinds, original, others, curved, or additional layers.
     """
 
     on: frozenset[str] = ON_BY_DEFAULT
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "on", frozenset(name if name in OWN_KEYS else LAYERS[name].name for name in self.on))
+        if self.on != ON_BY_DEFAULT:  # otherwise the names are known before all layers are loaded
+            object.__setattr__(self, "on", frozenset(LAYERS[name].name for name in self.on))
 
     def __repr__(self) -> str:
         return f"Structure(on={sorted(self.on)})"
@@ -100,22 +98,6 @@ class Structure:
     def without(self, *names: str) -> Structure:
         """Return a copy in which layers are off."""
         return Structure(self.on.difference(names))
-
-    @classmethod
-    def keys(cls) -> tuple[Option, ...]:
-        """Return the keys in files."""
-        switches = [Option(name, name, bool, name in ON_BY_DEFAULT) for name in OWN_KEYS]
-        return (*switches, Option("extra", "extra", tuple[str, ...], ()))
-
-    def to_keys(self) -> dict[str, Any]:
-        """Return the values of the keys in files."""
-        return {**{name: name in self.on for name in OWN_KEYS}, "extra": tuple(sorted(self.on.difference(OWN_KEYS)))}
-
-    @classmethod
-    def from_keys(cls, values: dict[str, Any]) -> Structure:
-        """Return the structure for values of keys; a missing key has its default."""
-        values = {**cls().to_keys(), **values}
-        return cls(frozenset(name for name in OWN_KEYS if values[name]).union(values["extra"]))
 
 
 @dataclass(frozen=True)

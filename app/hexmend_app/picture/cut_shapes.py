@@ -44,18 +44,30 @@ class Plane(ConfigTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "normal", _normalised(self.normal))
+        length = math.hypot(*self.normal)
+        if abs(length - 1) >= _ROUNDING:  # so that copies of a plane are identical
+            object.__setattr__(self, "normal", tuple((np.array(self.normal) / length).tolist()))
 
     def check(self) -> None:
         """Raise `ParameterError` unless there is a nonzero normal and at most one of position and point."""
-        _check_place("plane", self.normal, self.position, self.point)
+        if self.position is not None and self.point is not None:
+            raise ParameterError(f"the {type(self).__name__.lower()} has a position and a point: expected one of them")
+        if not any(self.normal):
+            raise ParameterError("normal = [0, 0, 0] is no direction: expected a nonzero vector")
 
     def on(self, mesh: Mesh) -> Plane:
         """Return the plane with a point in a mesh instead of a position."""
         if self.point is not None:
             return self
-        point, _ = _point_at(mesh, self.normal, self.position)
-        return Plane(self.normal, point=point)
+        return Plane(self.normal, point=self._point_in(mesh)[0])
+
+    def _point_in(self, mesh: Mesh) -> tuple[Vector, float]:
+        """Return the point at the position in a mesh, and the extent of the mesh along the normal."""
+        direction = np.array(self.normal)
+        along = mesh.points[mesh.topology.used] @ direction
+        low, extent = float(along.min()), float(np.ptp(along))
+        offset = low + (0.5 if self.position is None else self.position) * extent
+        return tuple((direction * offset).tolist()), extent
 
     @cached_property
     def equation(self) -> tuple[np.ndarray, float]:
@@ -131,39 +143,22 @@ class Box(ConfigTable):
 
 
 @dataclass(frozen=True)
-class Slab(ConfigTable):
-    """Region between two parallel planes.
+class Slab(Plane):
+    """Region between two planes, which are parallel to a plane in the middle.
 
     Parameters
     ----------
-    normal : Vector
-        Normal of the planes, of any length.
-    position : float, optional
-        Position of the middle along the normal, as a fraction of the extent of the mesh; by default 0.5.
-    point : Vector, optional
-        Point halfway between the planes, instead of a position.
     thickness : float
         Distance of the planes: with a point a length, otherwise a fraction of the extent of the mesh.
     """
 
-    normal: Vector = option((1.0, 0.0, 0.0))
-    position: float | None = option(low=0, high=1)
-    point: Vector | None = option()
     thickness: float = option(0.1, low=0)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        object.__setattr__(self, "normal", _normalised(self.normal))
-
-    def check(self) -> None:
-        """Raise `ParameterError` unless there is a nonzero normal and at most one of position and point."""
-        _check_place("slab", self.normal, self.position, self.point)
 
     def on(self, mesh: Mesh) -> Slab:
         """Return the slab with a point in a mesh, and its thickness in the unit of the mesh."""
         if self.point is not None:
             return self
-        point, extent = _point_at(mesh, self.normal, self.position)
+        point, extent = self._point_in(mesh)
         return Slab(self.normal, point=point, thickness=self.thickness * extent)
 
     @property
@@ -255,26 +250,3 @@ class Depth(ConfigTable):
     def contains(self, depths: np.ndarray) -> np.ndarray:
         """Return True for depths, (m,), in the range, (m,) bool."""
         return (depths >= self.low) & (depths <= self.high)
-
-
-def _normalised(normal: Vector) -> Vector:
-    """Scale a vector to length 1; a unit vector is not scaled again, so that copies of a plane are identical."""
-    length = math.hypot(*normal)
-    return normal if abs(length - 1) < _ROUNDING else tuple((np.array(normal) / length).tolist())
-
-
-def _check_place(name: str, normal: Vector, position: float | None, point: Vector | None) -> None:
-    """Raise `ParameterError` unless there is a nonzero normal and at most one of position and point."""
-    if position is not None and point is not None:
-        raise ParameterError(f"the {name} has a position and a point: expected one of them")
-    if not math.hypot(*normal) > 0:
-        raise ParameterError("normal = [0, 0, 0] is no direction: expected a nonzero vector")
-
-
-def _point_at(mesh: Mesh, normal: Vector, position: float | None) -> tuple[Vector, float]:
-    """Return the point at a position along a normal, and the extent of the mesh along it."""
-    direction = np.array(normal)
-    along = mesh.points[mesh.topology.used] @ direction
-    low, extent = float(along.min()), float(np.ptp(along))
-    offset = low + (0.5 if position is None else position) * extent
-    return tuple((direction * offset / (direction @ direction)).tolist()), extent

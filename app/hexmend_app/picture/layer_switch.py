@@ -50,20 +50,6 @@ def _load() -> None:
 
 LAYERS: Registry[LayerSwitch] = Registry("layer", _load)
 
-#: Layers with a key of their own in files of scenes and sessions, which are known without loading all layers.
-OWN_KEYS = (
-    "irregular",
-    "boundary",
-    "sharp",
-    "fixed",
-    "free",
-    "locked",
-    "kinds",
-    "original",
-    "others",
-    "curved",
-)
-
 #: Layers that are on until the user switches them off.
 ON_BY_DEFAULT = frozenset({"others", "curved"})
 

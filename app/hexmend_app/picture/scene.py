@@ -7,16 +7,12 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.option import option
-from hexmend_app.picture.appearance import Look, Measurement, Structure, Traces
+from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.picture.colours import Colours
-from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.named_cameras import MAX_CAMERAS
-from hexmend_app.picture.page import AxesStyle, ColourBarStyle, LineStyle, Page
-from hexmend_app.picture.visibility import Show
+from hexmend_app.picture.page import AxesStyle, ColourBarStyle
 
 #: Number of the current format; lower numbers can be read.
 FORMAT = 1
@@ -30,8 +26,8 @@ _MAX_HEXES, _MAX_TEXT = 300_000, 2_000_000
 
 
 @dataclass(frozen=True)
-class Scene(ConfigTable):
-    """Description of a picture; each field is a table of a scene file.
+class Scene(Look):
+    """Description of a picture: a look, cameras, panels and their labels; each field is a table of a scene file.
 
     Parameters
     ----------
@@ -43,42 +39,18 @@ class Scene(ConfigTable):
         Named cameras.
     panels : tuple of PicturePanel
         Panels of the page, row by row; by default one panel for each mesh.
-    cut : Cut
-        Cut of the mesh by planes, a box, a slab, a sphere or the depth of hexes.
-    show : Show
-        Filters of the shown hexes.
-    structure : Structure
-        Layers over the mesh.
-    movement : Traces
-        Arrows and reference state of movements.
-    colours : Colours
-        Colours of the hexes.
-    measurement : Measurement
-        Points that are measured.
-    lines : LineStyle
-        Widths of lines.
     bar : ColourBarStyle
         Colour bar.
     axes : AxesStyle
         Orientation axes in a corner.
-    page : Page
-        Size, background, margin and texts of the page.
     """
 
     format: int = option(FORMAT)
     camera: Camera = option(Camera)
     cameras: dict[str, Camera] = option(dict, most=MAX_CAMERAS)
     panels: tuple[PicturePanel, ...] = option((), most=MAX_PANELS)
-    cut: Cut = option(Cut)
-    show: Show = option(Show)
-    structure: Structure = option(Structure)
-    movement: Traces = option(Traces)
-    colours: Colours = option(Colours)
-    measurement: Measurement = option(Measurement)
-    lines: LineStyle = option(LineStyle)
     bar: ColourBarStyle = option(ColourBarStyle)
     axes: AxesStyle = option(AxesStyle)
-    page: Page = option(Page)
 
     def check(self) -> None:
         """Raise `ParameterError` for another format, too many hexes, and panels with unknown cameras."""

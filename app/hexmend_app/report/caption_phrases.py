@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexmend_app.picture import Camera, Colours, Cut, Plane, Slab
+from hexmend_app.picture import Camera, Colours, Cut, Plane
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.cut import CutStyle
@@ -80,7 +80,7 @@ def coloured_by(colours: Colours, invalid: bool) -> str:
     return f"{text}; inverted hexes are magenta, those invalid inside light magenta." if invalid else f"{text}."
 
 
-def _plane(plane: Plane | Slab) -> str:
+def _plane(plane: Plane) -> str:
     if plane.point is not None:
         place = f"through {_vector(plane.point)}"
     else:

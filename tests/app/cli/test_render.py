@@ -61,7 +61,7 @@ OVERRIDES = [
     (["--colour-range", "0.2,0.4"], "colours", Colours("scaled-jacobian", "plasma", (0.2, 0.4))),
     (["--clip", "x:0.25", "--flip"], "cut", Cut((Plane((-1, 0, 0), 0.75),))),
     (["--no-edges"], "lines", LineStyle(0.0)),
-    (["--key", "structure.curved=false", "--structure", "sharp"], "structure", Structure.of("sharp").without("curved")),
+    (["--structure", "sharp"], "structure", Structure.of("sharp")),
     (["--no-bar"], "bar", ColourBarStyle(TextPlace.NONE)),
     (["--captions", "mended"], "panels", (PicturePanel(caption="mended"),)),
 ]

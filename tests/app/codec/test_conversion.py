@@ -97,20 +97,3 @@ def test_each_entry_of_a_list_of_integers_is_checked(hexes):
     for kind, name in ((Show, "hidden"), (Isolate, "hexes")):
         with pytest.raises(ParameterError, match=f"{name} = "):
             kind(**{name: hexes})
-
-
-def test_a_copy_with_other_keys_is_checked():
-    show = Show(hidden=frozenset({1, 2}), peel=1)
-    assert show.with_keys(peel=2) == Show(hidden=frozenset({1, 2}), peel=2)
-    assert show.with_keys(hidden=[3]).hidden == frozenset({3})
-    for keys, message in (({"peel": -1}, "peel = -1"), ({"quality": (2, 1)}, "the lower number first")):
-        with pytest.raises(ParameterError, match=message):
-            show.with_keys(**keys)
-    with pytest.raises(TypeError, match="Show has no fields dug"):
-        show.with_keys(dug=3)
-
-
-def test_a_copy_has_no_cached_values_of_the_original():
-    cut = Cut(box=Box())
-    assert cut.sides[1].point[0] > 1
-    assert cut.with_keys(box=Box(high=(9, 9, 9))).sides[1].point[0] > 9

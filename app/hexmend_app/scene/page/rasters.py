@@ -181,7 +181,7 @@ class PageViews:
             return Frame(other.mesh, other.figures).matching(first)
         scene = self._layout.scene
         # Hex numbers apply to the first mesh only.
-        show = scene.show.with_keys(marked=frozenset())
+        show = replace(scene.show, marked=frozenset())
         scene = replace(scene, cut=replace(scene.cut, hexes=""), show=show)
         return Frame(other.mesh, other.figures, look=scene.look(other.mesh))
 

@@ -31,7 +31,7 @@ def scene_of(
     frame, selected = panes.first.frame, panes.first.overlay_layers.selection.hexes
     tables = {
         "cut": frame.look.cut.with_hexes(panes.first.filters.cut_left(frame)),
-        "show": frame.look.show.with_keys(marked=frozenset(selected.tolist())),
+        "show": replace(frame.look.show, marked=frozenset(selected.tolist())),
         "page": replace(page or Page(), shading=frame.look.page.shading),
         "panels": _panels(panes, names),
         "cameras": dict(cameras or {}),

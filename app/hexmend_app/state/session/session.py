@@ -238,7 +238,7 @@ class Session(QObject):
     def _show_as_picture(self, restored: RestoredPicture) -> None:
         """Show the mesh as in a picture: appearance, other states next to it, selected hex, camera and recipe."""
         metadata, show = restored.metadata, restored.look.show
-        self.view.show_as(replace(restored.look, show=show.with_keys(marked=frozenset())))
+        self.view.show_as(replace(restored.look, show=replace(show, marked=frozenset())))
         self.selection.choose(min(show.marked, default=None))
         for other in restored.others:
             if other.state is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -113,8 +113,8 @@ class ViewModel(QObject):
         ParameterError
             If a value is invalid.
         """
-        look = self.look.with_keys(**{
-            name: getattr(self.look, name).with_keys(**table) if isinstance(table, dict) else table
+        look = replace(self.look, **{
+            name: replace(getattr(self.look, name), **table) if isinstance(table, dict) else table
             for name, table in tables.items()
         })  # fmt: skip
         if look != self.look:
@@ -241,7 +241,7 @@ class ViewModel(QObject):
         """Set the number of rings around the isolated hexes."""
         self.rings = rings
         if self.look.show.isolate is not None:
-            self.change(show={"isolate": self.look.show.isolate.with_keys(rings=rings)})
+            self.change(show={"isolate": replace(self.look.show.isolate, rings=rings)})
 
     def end_isolation(self) -> None:
         """End the isolation."""

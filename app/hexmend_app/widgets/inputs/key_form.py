@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from enum import StrEnum
 from functools import cache
 from typing import Any
@@ -108,6 +108,7 @@ def helps(kind: type) -> dict[str, str]:
     >>> helps(WipeLayout)["mesh"]
     'Number of the mesh on the command line, from 1.'
     """
+    inherited = helps(kind.__base__) if is_dataclass(kind.__base__) else {}
     lines = inspect.getdoc(kind).splitlines()
     texts: dict[str, str] = {}
     names: list[str] = []
@@ -118,4 +119,4 @@ def helps(kind: type) -> dict[str, str]:
         elif line.startswith("    "):
             for name in names:
                 texts[name] = f"{texts.get(name, '')} {line.strip()}".strip()
-    return texts
+    return inherited | texts
