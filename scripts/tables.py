@@ -202,7 +202,8 @@ def _default(one: Option) -> str:
     value = one.default
     if _table_of(one.kind) is not None or value in (None, False, "", (), frozenset()):
         return ""
-    shown = f'"{value}"' if isinstance(value, str) else list(value) if isinstance(value, tuple) else value
+    value = {tuple: list, frozenset: sorted}.get(type(value), lambda own: own)(value)
+    shown = f'"{value}"' if isinstance(value, str) else value
     return f" Default {str(shown).lower()}."
 
 

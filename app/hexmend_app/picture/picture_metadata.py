@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 import numpy as np
+from PIL import Image
 
 import hexmend.run.recipe as recipes
 from hexmend.errors import FileError, ParameterError
@@ -20,13 +21,14 @@ from hexmend.toml_text import parse_toml
 from hexmend_app.codec.config_table import ConfigTable
 from hexmend_app.codec.conversion import decode
 from hexmend_app.codec.option import option
-from hexmend_app.picture import png_text
 from hexmend_app.picture.camera import MAX_PANELS, PicturePanel
 from hexmend_app.picture.scene import Scene
 from hexmend_app.picture.scene_files import from_toml, table_text, to_toml
 
 #: Keywords of the PNG texts.
 _SCENE, _ABOUT, _RECIPE = "hexmend scene", "hexmend meshes", "hexmend recipe"
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 #: Maximum length of a path.
 _MAX_PATH = 1000
@@ -133,7 +135,7 @@ def read_metadata(path: str | os.PathLike[str]) -> PictureMetadata:
     FileError
         If the picture contains no scene, or an invalid one; the message names the key.
     """
-    found = png_text.texts(path, (_SCENE, _ABOUT, _RECIPE))
+    found = _texts(Path(path))
     if _SCENE not in found or _ABOUT not in found:
         raise FileError(Path(path), "this picture contains no scene", "Open the mesh that it shows.")
     try:
@@ -147,6 +149,25 @@ def read_metadata(path: str | os.PathLike[str]) -> PictureMetadata:
             Path(path), f"the scene in this picture is invalid: {error}", "Open the mesh that it shows."
         ) from None
     return PictureMetadata(scene, about.meshes, recipe)
+
+
+def is_png(path: str | os.PathLike[str]) -> bool:
+    """Return True if a file begins with the PNG signature."""
+    try:
+        with open(path, "rb") as file:
+            return file.read(len(_SIGNATURE)) == _SIGNATURE
+    except (OSError, ValueError):  # the error is reported when the file is read
+        return False
+
+
+def _texts(path: Path) -> dict[str, str]:
+    """Return the texts of a PNG by keyword; its pixels are not decoded."""
+    try:
+        with Image.open(path, formats=["PNG"]) as image:
+            return {keyword: text for keyword, text in image.info.items() if isinstance(text, str)}
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        problem = getattr(error, "strerror", None) or "the picture is damaged"
+        raise FileError(path, f"cannot be read: {problem}", "Copy the picture again.") from None
 
 
 def digest(mesh: Mesh) -> str:

@@ -12,8 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.io.storage.file_progress import FileProgress, watch_files
-from hexmend_app.picture.picture_metadata import read_metadata
-from hexmend_app.picture.png_text import is_png
+from hexmend_app.picture.picture_metadata import is_png, read_metadata
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture, restore_picture
