@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite
+from typing import Any
 
 from hexmend.errors import ParameterError
 
@@ -34,12 +35,12 @@ def parse_integer(text: str, option: str, low: int, high: int) -> int:
     return int(text)
 
 
-def parse_size(text: str) -> tuple[int, int]:
-    """Parse the value of `--size`: width and height in pixels."""
+def page_size(text: str) -> dict[str, Any]:
+    """Parse the value of `--size`, width and height in pixels, as keys of a page."""
     width, _, height = text.lower().partition("x")
     if not (width.isdecimal() and height.isdecimal() and 64 <= int(width) <= 8192 and 64 <= int(height) <= 8192):
         raise invalid_value("--size", text, "WIDTHxHEIGHT of 64 to 8192 pixels each, as in 1600x1000")
-    return int(width), int(height)
+    return {"pixels": (int(width), int(height)), "width": None, "height": None}
 
 
 def invalid_value(option: str, text: str, expected: str) -> ParameterError:

@@ -14,7 +14,6 @@ from hexmend.study.method_spec import parse_methods, split_names
 from hexmend.terminal_text import printable
 from hexmend_app.cli import scene_options
 from hexmend_app.cli.numbers import invalid_value
-from hexmend_app.picture import Scene, read_scene
 
 #: The value of `--methods` that runs no method.
 NONE = "none"
@@ -22,14 +21,11 @@ NONE = "none"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
-    scene_options.accept_negative_values(parser)
     text = "see `hexmend methods` (default: mend); a FILE.toml is a recipe; none runs nothing"
     parser.add_argument("--methods", metavar="A,B,...", help=text)
     add_settings(parser)
     text = "names of the original mesh and of each method's result in captions"
     parser.add_argument("--names", metavar="A,B,...", help=text)
-    text = "camera, cut and colours; other options override them"
-    parser.add_argument("--scene", metavar="FILE.toml", help=text)
     scene_options.add_arguments(parser)
 
 
@@ -48,14 +44,6 @@ def names(args: argparse.Namespace, count: int) -> list[str]:
         expected = f"{count + 1} different names separated by commas, the original mesh first"
         raise invalid_value("--names", args.names, expected)
     return given
-
-
-def scene(args: argparse.Namespace) -> Scene:
-    """Return the scene of the file, overridden by the options."""
-    base = read_scene(args.scene) if args.scene else Scene()
-    if not args.scene and not args.metric:
-        args.metric = base.colours.metric  # sets its default range too
-    return scene_options.with_options(args, base)
 
 
 def words(args: argparse.Namespace, without: Collection[str] = ()) -> list[str]:

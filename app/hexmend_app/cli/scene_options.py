@@ -10,7 +10,7 @@ from typing import Any
 from hexmend_app.cli.numbers import direction, invalid_value, numbers
 from hexmend_app.codec.conversion import decode, encode
 from hexmend_app.codec.value_text import parse_value
-from hexmend_app.picture import CutKind, Plane, Range, Scene
+from hexmend_app.picture import CutKind, Plane, Range, Scene, read_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.layer_switch import ordered_layers
@@ -35,13 +35,11 @@ _SWITCHES = (
 _POSE = ("position", "focal", "view_up", "scale")
 
 
-def accept_negative_values(parser: argparse.ArgumentParser) -> None:
-    """Accept -x and -1,0,0 as values; argparse takes words that begin with a minus for options, except numbers."""
-    parser._negative_number_matcher = re.compile(r"-(\d|\.\d|inf\b|[xyz]$)")
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
+    # Values such as -x and -1,0,0; argparse takes words that begin with a minus for options, except numbers.
+    parser._negative_number_matcher = re.compile(r"-(\d|\.\d|inf\b|[xyz]$)")
+    parser.add_argument("--scene", metavar="FILE.toml", help="camera, cut and colours; other options override them")
     text = "x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5)"
     parser.add_argument("--clip", metavar="PLANE", action="append", default=[], help=text)
     parser.add_argument("--flip", action="store_true", help="hide the other side of each plane")
@@ -59,19 +57,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--key", metavar="TABLE.KEY=VALUE", action="append", default=[], help=text)
 
 
-def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any]) -> Scene:
-    """Return a scene whose keys are overridden by the options.
+def scene(args: argparse.Namespace, **keys: dict[str, Any]) -> Scene:
+    """Return the scene of the file, or the default scene, overridden by the options.
 
     Parameters
     ----------
     args : Namespace
         From a parser with the options of `add_arguments`.
-    scene : Scene
     **keys : dict
         More keys, by table.
 
     Raises
     ------
+    FileError
+        If the file cannot be read or is no scene.
     ParameterError
         If a value is invalid.
     """
@@ -79,9 +78,10 @@ def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any])
     for path, value in _given(args):
         table, _, key = path.partition(".")
         given.setdefault(table, {})[key] = value
-    if args.metric:
-        given["colours"] = {"range": _range_of(args.metric), **given["colours"]}
-    tables = encode(scene)
+    tables = encode(read_scene(args.scene) if args.scene else Scene())
+    if args.metric or not args.scene:
+        metric = args.metric or tables["colours"]["metric"]
+        given["colours"] = {"range": _range_of(metric), **given.get("colours", {})}
     if not given.get("cut", {}).keys().isdisjoint(CutKind):
         tables["cut"] = {}
     if "from" in given.get("camera", {}):

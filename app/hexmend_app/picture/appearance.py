@@ -14,6 +14,7 @@ from hexmend_app.codec.option import option
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
+from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT
 from hexmend_app.picture.page import LineStyle, Page
 from hexmend_app.picture.visibility import Show
@@ -165,6 +166,11 @@ class Look(ConfigTable):
     lines: LineStyle = option(LineStyle)
     page: Page = option(Page)
     measurement: Measurement = option(Measurement)
+
+    @property
+    def shows_movement(self) -> bool:
+        """True if colours or arrows show a displacement."""
+        return self.colours.metric in DISPLACEMENT_QUANTITIES or self.movement.arrows is not Arrows.NONE
 
     def on(self, mesh: Mesh) -> Look:
         """Return the look with the coordinates of the cut in a mesh.

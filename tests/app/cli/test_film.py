@@ -34,8 +34,8 @@ WRONG_OPTIONS = [
     (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
     (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
     (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
-    (["-o", "run.gif", "--arrows", "some"], "expected sight or all"),
-    (["-o", "run.gif", "--since", "ever"], "expected run or iteration"),
+    (["-o", "run.gif", "--arrows", "some"], "expected none, sight, all"),
+    (["-o", "run.gif", "--since", "ever"], "expected opened, run, iteration"),
     (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
 ]
 

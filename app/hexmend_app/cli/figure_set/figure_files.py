@@ -9,7 +9,7 @@ from hexmend.cli.arguments.run_arguments import check_memory
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.report.documents import output_folder
-from hexmend_app.cli import run_options
+from hexmend_app.cli import run_options, scene_options
 from hexmend_app.cli.numbers import invalid_value, numbers
 from hexmend_app.report import figure_set
 from hexmend_app.report.case import command_line, run_methods, source_of
@@ -65,4 +65,4 @@ def _style(args: argparse.Namespace) -> Style:
     (width,) = numbers(args.width_mm, 1, "--width-mm") if args.width_mm else (170.0,)
     if not WIDTHS[0] <= width <= WIDTHS[1]:
         raise invalid_value("--width-mm", args.width_mm, f"a width from {WIDTHS[0]:g} to {WIDTHS[1]:g} mm")
-    return Style(run_options.scene(args), width, _formats(args))
+    return Style(scene_options.scene(args), width, _formats(args))

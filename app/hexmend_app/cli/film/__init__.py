@@ -13,9 +13,8 @@ _HELP = "Run a method and write an animation of its iterations: MP4, GIF, WebP o
 
 @uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    from hexmend_app.cli.scene_options import accept_negative_values, add_arguments
+    from hexmend_app.cli.scene_options import add_arguments
 
-    accept_negative_values(parser)
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument("-o", "--output", metavar="FILE.gif", required=True, help="where to write the animation")
     add_method(parser)
@@ -28,7 +27,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--before", action="store_true", help="show the mesh before the run next to it")
     parser.add_argument("--poster", action="store_true", help="begin with the result, as a picture of the whole film")
     parser.add_argument("--arrows", metavar="NODES", help="arrows of the displacement of nodes: sight or all")
-    parser.add_argument("--since", metavar="TIME", help="start of the displacement: run (default) or iteration")
+    parser.add_argument("--since", metavar="TIME", help="start of the displacement: opened (default) or iteration")
     add_force(parser)
 
 

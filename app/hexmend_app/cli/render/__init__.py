@@ -12,14 +12,11 @@ _HELP = "Write a picture of a mesh, or of several side by side; needs neither a 
 
 @uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    from hexmend_app.cli.scene_options import accept_negative_values, add_arguments
+    from hexmend_app.cli.scene_options import add_arguments
 
-    accept_negative_values(parser)
     parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh file; several are drawn side by side")
     text = "where to write the picture: .png, .tif, .pdf or .svg"
     parser.add_argument("-o", "--output", metavar="PICTURE", required=True, help=text)
-    text = "scene file; other options override it"
-    parser.add_argument("--scene", metavar="FILE.toml", help=text)
     parser.add_argument("--save-scene", metavar="FILE.toml", help="write the drawn scene to this file")
     text = "name of a camera in the scene or session, or a camera copied in the viewer"
     parser.add_argument("--camera", metavar="CAMERA", help=text)

@@ -12,12 +12,11 @@ from typing import Any
 from hexmend.errors import ParameterError
 from hexmend.io import read
 from hexmend.io.storage.atomic import check_writable
-from hexmend_app.cli.numbers import invalid_value, numbers, parse_size
-from hexmend_app.cli.scene_options import with_options
+from hexmend_app.cli import scene_options
+from hexmend_app.cli.numbers import invalid_value, numbers, page_size
 from hexmend_app.formats.session import SUFFIX
-from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, read_scene, write_scene
-from hexmend_app.picture.appearance import Arrows
-from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement, ReferenceState
+from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, write_scene
+from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.picture.named_cameras import cameras_of
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.scene.page.page_mesh import PageMesh
@@ -45,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _movement(scene: Scene, meshes: Sequence[PageMesh]) -> Displacement | None:
     """Return the movement of the first mesh, if the scene shows it."""
-    if scene.colours.metric not in DISPLACEMENT_QUANTITIES and scene.movement.arrows is Arrows.NONE:
+    if not scene.shows_movement:
         return None
     if len(meshes) == 1:
         raise ParameterError(
@@ -58,11 +57,8 @@ def _movement(scene: Scene, meshes: Sequence[PageMesh]) -> Displacement | None:
 
 def _scene(args: argparse.Namespace) -> Scene:
     """Return the scene of the file, overridden by the options."""
-    scene = read_scene(args.scene) if args.scene else Scene()
-    if not args.scene and not args.metric:
-        args.metric = scene.colours.metric  # sets its default range too
     bar = {"place": TextPlace.NONE} if args.no_bar else {}
-    scene = with_options(args, scene, page=_page(args), bar=bar)
+    scene = scene_options.scene(args, page=_page(args), bar=bar)
     changes: dict[str, Any] = {}
     if args.camera:
         changes["camera"] = _camera(args.camera, scene, args.mesh)
@@ -75,7 +71,7 @@ def _page(args: argparse.Namespace) -> dict[str, Any]:
     """Return the keys of the page whose options have another notation."""
     page: dict[str, Any] = {}
     if args.size:
-        page |= {"pixels": parse_size(args.size), "width": None, "height": None}
+        page |= page_size(args.size)
     if args.mm:
         width, height = numbers(args.mm.lower().replace("x", ","), 2, "--mm")
         page |= {"width": width, "height": height, "pixels": None}

@@ -17,7 +17,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import Smoother
 from hexmend.terminal_text import printable
-from hexmend_app.cli import run_options
+from hexmend_app.cli import run_options, scene_options
 from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
 from hexmend_app.report.charts import check_matplotlib
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     check_matplotlib()
     options = run_options.words(args, ("mesh", "output", "title", "force"))
     smoothers, stop = run_options.methods(args)
-    names, scene = run_options.names(args, len(smoothers)), run_options.scene(args)
+    names, scene = run_options.names(args, len(smoothers)), scene_options.scene(args)
     if not interactive:
         check_pdf()
     style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import ColourPanel
-from hexmend_app.picture.appearance import Arrows, Look
-from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, Displacement
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.displacement import Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
@@ -115,8 +115,7 @@ class FeatureAppearance(Feature):
     def _movement(self) -> Displacement | None:
         """Displacement shown by colours or arrows, or None."""
         look = self._view.look
-        needed = look.colours.metric in DISPLACEMENT_QUANTITIES or look.movement.arrows is not Arrows.NONE
-        return self.session.comparison_bases.displacement(look.movement.since) if needed else None
+        return self.session.comparison_bases.displacement(look.movement.since) if look.shows_movement else None
 
     @property
     def _drawable(self) -> Look:

@@ -15,7 +15,6 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.terminal_text import install_hint
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
-from hexmend_app.scene.render.colour_count import count_colours
 
 #: Film formats by suffix; browsers show all of them.
 FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
@@ -82,36 +81,12 @@ def format_of(path: Path) -> str:
 
 
 def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:
-    """Reduce all frames to a common palette, so that unchanged areas take no space.
-
-    Half of it is for the lower edge of the frames, where the colour bar would otherwise show bands.
-    """
-    sample = np.stack([np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)])
-    edge = frames[0].height * 7 // 8
-    table = [*_main_colours(sample[:, :edge], 128), *_main_colours(sample[-1, edge:], 126)]
-    table += [special.colour for special in INVALID_COLOURS]
-    return [_apply_palette(frame, table) for frame in frames]
-
-
-def _apply_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Image.Image:
-    """Map a frame to the nearest colours of a table; the search of Pillow is inexact in gradients."""
-    from scipy.spatial import KDTree
-
-    pixels = np.asarray(frame.convert("RGB")).astype(np.uint32)
-    packed, index = np.unique(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], return_inverse=True)
-    _, nearest = KDTree(np.array(table)).query(np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1))
-    indexed = Image.fromarray(nearest.astype(np.uint8)[index].reshape(pixels.shape[:2]), "P")
-    indexed.putpalette([part for colour in table for part in colour])
-    return indexed
-
-
-def _main_colours(pixels: np.ndarray, most: int) -> list[tuple[int, ...]]:
-    """Return at most `most` colours that best represent pixels, (..., 3) uint8."""
-    colours, counts = count_colours(pixels)
-    # Weight colours by the root of their count; otherwise most of the palette would go to the background.
-    weighted = np.repeat(colours, np.ceil(np.sqrt(counts)).astype(int), axis=0)
-    chosen = Image.fromarray(weighted[None]).quantize(most, method=Image.Quantize.MEDIANCUT).convert("RGB")
-    return [tuple(colour) for colour in count_colours(np.asarray(chosen))[0].tolist()]
+    """Reduce all frames to a common palette that has those of invalid hexes; unchanged areas take no space."""
+    sample = np.concatenate([np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)])
+    special = [special.colour for special in INVALID_COLOURS]
+    palette = Image.fromarray(sample).quantize(256 - len(special), method=Image.Quantize.MAXCOVERAGE, kmeans=1)
+    palette.putpalette([*palette.getpalette(), *(part for colour in special for part in colour)])
+    return [frame.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
 
 
 def check_installed(path: Path) -> None:

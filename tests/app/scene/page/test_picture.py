@@ -14,7 +14,7 @@ from PySide6.QtGui import QOpenGLContext
 from hexmend import FileError, write
 from hexmend.cli.main import main
 from hexmend_app.cli.render import command
-from hexmend_app.cli.scene_options import parse_plane, with_options
+from hexmend_app.cli.scene_options import parse_plane, scene
 from hexmend_app.picture import ColourBarStyle, Cut, CutStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab
@@ -123,7 +123,7 @@ def test_values_may_begin_with_a_minus():
 def asked(mesh, *words):
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
-    return with_options(parser.parse_args(["a.vtk", "-o", "a.png", *words]), Scene()).look(mesh).cut
+    return scene(parser.parse_args(["a.vtk", "-o", "a.png", *words])).look(mesh).cut
 
 
 def test_planes_are_named_by_axis_or_normal_and_position():
