@@ -129,7 +129,7 @@ def figure_scene(style: Style, scene: Scene, names: Sequence[str]) -> Scene:
 
 def draw_versions(scene: Scene, versions: Sequence[Version]) -> PageRenderer:
     """Draw a scene with a panel for each version."""
-    return draw_page(scene, [PageMesh(version.name, version.mesh, version.figures) for version in versions])
+    return draw_page(scene, [PageMesh(version.mesh, version.figures, name=version.name) for version in versions])
 
 
 def stationary(scene: Scene) -> Scene:

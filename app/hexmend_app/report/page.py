@@ -23,7 +23,7 @@ from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report.case import Case, Version
 from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures, write_opposite_view
 from hexmend_app.report.templates import ENVIRONMENT, html, read
-from hexmend_app.report.viewer import ViewerState, script, viewer
+from hexmend_app.report.viewer import script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
 from hexmend_app.state.mesh.hex_groups import invalid_counts
 
@@ -190,8 +190,7 @@ def _figures(case: Case, style: Style, interactive: bool) -> Generator[Figure, N
                 figures.append(figure)
                 yield figure
         pictures = {figure.part: html.picture(figure.paths[0], figure.caption) for figure in figures}
-    states = [ViewerState(version.name, version.mesh.points) for version in case.versions]
-    view = viewer(case.initial.mesh, states, pictures["surface"]) if interactive else pictures["surface"]
+    view = viewer(case.versions, pictures["surface"]) if interactive else pictures["surface"]
     plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
     return [
         view,

@@ -15,12 +15,12 @@ from hexmend_app.report import case
 from hexmend_app.report import viewer as module
 from hexmend_app.report.case import run_methods
 from hexmend_app.report.templates import html
-from hexmend_app.report.viewer import ViewerState, packed, viewer
+from hexmend_app.report.viewer import packed, viewer
 
 
 @pytest.fixture(scope="module")
 def kept(case):
-    return packed(case.initial.mesh, [ViewerState(one.name, one.mesh.points) for one in case.versions])
+    return packed(case.versions)
 
 
 def array(blob, place, kind):
@@ -60,7 +60,7 @@ def test_values_are_decoded(kept, case, name):
 
 
 def test_the_same_mesh_makes_the_same_page(kept, case):
-    assert packed(case.initial.mesh, [ViewerState(one.name, one.mesh.points) for one in case.versions]) == kept
+    assert packed(case.versions) == kept
 
 
 def test_no_name_can_end_a_script():
@@ -71,9 +71,7 @@ def test_no_name_can_end_a_script():
 
 def test_a_mesh_too_large_for_a_browser_is_a_picture_with_the_reason(case, monkeypatch):
     monkeypatch.setattr(module, "MOST_HEXES", 10)
-    page = viewer(
-        case.initial.mesh, [ViewerState("initial", case.initial.mesh.points)], Markup("<figure>picture</figure>")
-    )
+    page = viewer([case.initial], Markup("<figure>picture</figure>"))
     assert "<figure>picture</figure>" in page
     assert "864 hexes, at most 10" in page
     assert "<canvas" not in page

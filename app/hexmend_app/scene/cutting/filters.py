@@ -77,12 +77,6 @@ class Filters:
         left = self._known["cut"][1]
         return None if np.array_equal(left, self.hexes_kept_by_cut(frame.mesh.points, cut)) else left
 
-    def copied(self) -> Filters:
-        """Return a copy for a view with another look."""
-        copy = Filters(self._mesh)
-        copy._known = dict(self._known)
-        return copy
-
     def ghosts(self, frame: Frame) -> np.ndarray | None:
         """Return True for the rings of hexes around the isolated hexes, (m,) bool; None if there are none.
 

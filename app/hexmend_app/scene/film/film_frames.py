@@ -94,7 +94,7 @@ def pictures(
                 start = last if scene.movement.since is Since.ITERATION else movement.before
                 movement = Displacement(movement.mesh, start or current, mesh.points, figures)
                 last = current
-            shown = PageMesh(frame.place if before else f"{frame.title}, {frame.place}", mesh, figures, movement)
+            shown = PageMesh(mesh, figures, movement, name=frame.place if before else f"{frame.title}, {frame.place}")
             meshes = [*(meshes[:1] or [replace(shown, name="Before")]), shown] if before else [shown]
             panels = tuple(PicturePanel(mesh=number, caption=one.name) for number, one in enumerate(meshes, 1))
             layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=histogram)

@@ -13,7 +13,6 @@ from PIL import Image
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.picture import Corner, Page, Scene
-from hexmend_app.scene.cutting.filters import Filters
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.page.page_captions import draw_captions
@@ -148,13 +147,7 @@ class PageRenderer:
         return figure
 
 
-def draw_page(
-    scene: Scene,
-    meshes: Sequence[PageMesh],
-    *,
-    filters: Filters | None = None,
-    node_step: NodeStep | None = None,
-) -> PageRenderer:
+def draw_page(scene: Scene, meshes: Sequence[PageMesh], *, node_step: NodeStep | None = None) -> PageRenderer:
     """Draw the page of a scene off screen.
 
     Parameters
@@ -162,8 +155,6 @@ def draw_page(
     scene : Scene
     meshes : sequence of PageMesh
         At least one mesh; panels refer to them by number from 1.
-    filters : Filters, optional
-        Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
         Node step to draw in the first mesh.
 
@@ -173,7 +164,7 @@ def draw_page(
         If the scene names hexes or meshes that do not exist, or its page is too small for its panels.
     """
     layout = Layout.of(scene, meshes)
-    drawn = rasters(layout, filters=filters, node_step=node_step)
+    drawn = rasters(layout, node_step=node_step)
     return PageRenderer(*_cropped(layout, drawn)) if scene.page.crop else PageRenderer(layout, drawn)
 
 

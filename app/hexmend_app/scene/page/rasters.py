@@ -18,7 +18,6 @@ from hexmend_app.scene.camera.fitting import fit
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import Colouring, declared_ends
-from hexmend_app.scene.cutting.filters import Filters
 from hexmend_app.scene.geometry.frame import Frame, same_hexes
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.lettering import Entry
@@ -57,15 +56,9 @@ class Rasters:
     values: list[tuple[np.ndarray, np.ndarray]]
 
 
-def rasters(
-    layout: Layout,
-    *,
-    filters: Filters | None = None,
-    node_step: NodeStep | None = None,
-    at_once: int = AT_ONCE,
-) -> Rasters:
+def rasters(layout: Layout, *, node_step: NodeStep | None = None, at_once: int = AT_ONCE) -> Rasters:
     """Render the panels of a page; for the parameters see `page_views`."""
-    with page_views(layout, filters=filters, node_step=node_step, at_once=at_once) as views:
+    with page_views(layout, node_step=node_step, at_once=at_once) as views:
         return views.rasters(layout)
 
 
@@ -73,7 +66,6 @@ def rasters(
 def page_views(
     layout: Layout,
     *,
-    filters: Filters | None = None,
     node_step: NodeStep | None = None,
     at_once: int = AT_ONCE,
     aspect: float = 0.0,
@@ -83,8 +75,6 @@ def page_views(
     Parameters
     ----------
     layout : Layout
-    filters : Filters, optional
-        Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
         Node step to draw in the first mesh.
     at_once : int
@@ -96,7 +86,7 @@ def page_views(
     pixel_ratio = page.line_width(layout.scene.lines) * page.supersampling
     tiles = Tiles.of(layout.panel, page.supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
-        views = PageViews(stage, tiles, layout, pixel_ratio, filters, aspect)
+        views = PageViews(stage, tiles, layout, pixel_ratio, aspect)
         views.all[1].overlay_layers.selection.show_node_step(node_step)
         yield views
 
@@ -117,21 +107,11 @@ class PageViews:
     layout : Layout
     pixel_ratio : float
         Width of a thin line, in rendered pixels.
-    filters : Filters or None
-        Filters of a view of the first mesh.
     aspect : float
         Smallest width by height of what the cameras show.
     """
 
-    def __init__(
-        self,
-        stage: Stage,
-        tiles: Tiles,
-        layout: Layout,
-        pixel_ratio: float,
-        filters: Filters | None,
-        aspect: float,
-    ):
+    def __init__(self, stage: Stage, tiles: Tiles, layout: Layout, pixel_ratio: float, aspect: float):
         self._stage, self._tiles, self._layout, self._aspect = stage, tiles, layout, aspect
         self._background = layout.scene.page.ground
         self.shown = layout.shown
@@ -139,7 +119,7 @@ class PageViews:
         self._cameras: dict[tuple[str, int], vtkCamera] = {}
         self._pictures: dict[tuple[int, vtkCamera], Image.Image] = {}
         self._look = look = layout.scene.look(layout.meshes[0].mesh)
-        first = layout.meshes[0].frame(look)
+        first, filters = replace(layout.meshes[0], look=look), None
         for number in sorted(self.shown | {1}):
             view = Viewport(Pane(stage.window), axes=False, filters=filters, pixel_ratio=pixel_ratio)
             view.set_dark(layout.scene.page.dark)
@@ -153,7 +133,7 @@ class PageViews:
 
     def show(self, number: int, mesh: PageMesh) -> None:
         """Draw a mesh with other positions of its nodes in the view of a number."""
-        self.all[number].draw(mesh.frame(self._look))
+        self.all[number].draw(replace(mesh, look=self._look))
         self._pictures = {key: picture for key, picture in self._pictures.items() if key[0] != number}
 
     def rasters(self, layout: Layout) -> Rasters:
@@ -178,7 +158,7 @@ class PageViews:
     def _frame_of_other(self, other: PageMesh, first: Frame) -> Frame:
         """Return the frame of another mesh than the first, with the look of the first if their hexes are equal."""
         if same_hexes(first.mesh, other.mesh):
-            return Frame(other.mesh, other.figures).matching(first)
+            return other.matching(first)
         scene = self._layout.scene
         # Hex numbers apply to the first mesh only.
         show = replace(scene.show, marked=frozenset())

@@ -42,14 +42,13 @@ def scene_of(
 def page_meshes(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
     """Return the meshes of views, with the names for their captions."""
     named = names if len(panes.all) > 1 else [""]
-    return [PageMesh.shown(view.frame, name) for view, name in zip(panes.all, named, strict=True)]
+    return [PageMesh(**vars(view.frame), name=name) for view, name in zip(panes.all, named, strict=True)]
 
 
 def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> PageRenderer:
-    """Draw a scene of views, with the result of their cut by whole hexes and their node step; see `draw_page`."""
+    """Draw a scene of views with their node step; see `draw_page`."""
     step = panes.first.overlay_layers.selection.node_step
-    filters = panes.first.filters.copied()
-    return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step)
+    return draw_page(scene, page_meshes(panes, names), node_step=step)
 
 
 def _panels(panes: Panes, names: Sequence[str]) -> tuple[PicturePanel, ...]:
