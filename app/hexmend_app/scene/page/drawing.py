@@ -36,7 +36,8 @@ class Drawing:
         self._place = Affine2D().scale(1 / layout.size[0], -1 / layout.size[1]).translate(0, 1) + figure.transFigure
         self.letters = layout.letters
         self._points = PT_PER_INCH / layout.scene.page.resolution  # size of a pixel in pt
-        self.colour = _BRIGHT if layout.scene.page.dark else _DARK
+        self.dark, self._ground = layout.scene.page.dark, layout.scene.page.ground
+        self.colour = _BRIGHT if self.dark else _DARK
         #: Width of a line, in pixels.
         self.line = max(1.0, self.letters.height / 14)
 
@@ -61,6 +62,7 @@ class Drawing:
         bold: bool = False,
         turned: bool = False,
         colour: str | None = None,
+        halo: bool = False,
     ) -> None:
         """Draw a text.
 
@@ -77,6 +79,8 @@ class Drawing:
         turned : bool
             Rotate the text by 90° counter-clockwise.
         colour : str, optional
+        halo : bool
+            Outline the letters in the background colour, so that they are visible in front of a mesh.
         """
         self._figure.text(
             x,
@@ -93,6 +97,26 @@ class Drawing:
             rotation_mode="anchor",
             parse_math=False,
             zorder=4,
+            path_effects=self._halo if halo else [],
+        )
+
+    def arrow(self, start: tuple[float, float], end: tuple[float, float], colour: str) -> None:
+        """Draw an arrow, outlined in the background colour."""
+        from matplotlib.patches import FancyArrowPatch
+
+        size: dict[str, Any] = {"linewidth": 1.6 * self.line * self._points, "mutation_scale": self.letters.points}
+        place = {"transform": self._place, "path_effects": self._halo, "shrinkA": 0, "shrinkB": 0, "zorder": 3}
+        self._figure.add_artist(FancyArrowPatch(start, end, arrowstyle="-|>", color=colour, **size, **place))
+
+    @property
+    def _halo(self) -> list[Any]:
+        """Outline in the background colour; none on a transparent page."""
+        from matplotlib.patheffects import withStroke
+
+        return (
+            []
+            if self._ground is None
+            else [withStroke(linewidth=4 * self.line * self._points, foreground=self._ground)]
         )
 
     def lines(self, *ends: tuple[float, float, float, float], colour: str | None = None, width: float = 1.0) -> None:
@@ -103,10 +127,10 @@ class Drawing:
         pen: dict[str, Any] = {"colors": colour or self.colour, "linewidths": width * self.line * self._points}
         self._figure.add_artist(LineCollection(paths, capstyle="round", zorder=3, transform=self._place, **pen))
 
-    def fill(self, *corners: Sequence[tuple[float, float]], colours: Any, alpha: float | None = None) -> None:
+    def fill(self, *corners: Sequence[tuple[float, float]], colours: Any) -> None:
         """Fill polygons, each given by its corners, with one colour or a colour for each."""
         from matplotlib.collections import PolyCollection
 
         self._figure.add_artist(
-            PolyCollection(corners, facecolors=colours, edgecolors="none", alpha=alpha, zorder=3, transform=self._place)
+            PolyCollection(corners, facecolors=colours, edgecolors="none", zorder=3, transform=self._place)
         )
