@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from html import escape
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen, QPixmap
-from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QFontMetricsF, QIcon, QImage, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
-from hexmend_app.canvas.name_list import NameList
-from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
-from hexmend_app.scene.colour.colouring import Colouring
+from hexmend_app.scene.colour.colouring import Colouring, SpecialColour
+from hexmend_app.scene.page.lettering import name_entries
 from hexmend_app.theme.palette import LINE, MUTED, TEXT
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import set_help, smaller, tabular
+from hexmend_app.theme.style import set_help, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
@@ -25,6 +25,9 @@ _THICKNESS, _TICK, _GAP = 14.0, 4.0, 3.0
 _MAX_TITLE = 116
 
 _MAX_TICKS = 11
+
+#: Maximum number of rows of materials, and side of a swatch in pixels.
+_MAX_ROWS, _SWATCH = 14, 12
 
 
 class ColourBar(QFrame):
@@ -46,8 +49,11 @@ class ColourBar(QFrame):
         self._title.setWordWrap(True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         self._gradient = _Gradient()
-        self._names = NameList()
-        self.swatches: list[SwatchButton] = []
+        self._names = QLabel()
+        self._names.setTextFormat(Qt.TextFormat.RichText)
+        self._names.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._names.setMinimumHeight(20)  # fits into small views
+        self.swatches: list[QToolButton] = []
         self._layout = fill(
             QVBoxLayout(self), self._title, (self._gradient, 1), (self._names, 1), margins=(8, 8, 8, 4), spacing=4
         )
@@ -59,21 +65,30 @@ class ColourBar(QFrame):
         self._gradient.colouring = colouring
         self._gradient.setVisible(not colouring.names)
         self._gradient.update()
-        self._names.show_names(colouring.names, colouring.table)
-        self._names.setVisible(bool(colouring.names))
+        rows = name_entries(colouring.names, colouring.table, _MAX_ROWS) if colouring.names else []
+        self._names.setText("<br>".join(
+            (f'<span style="color: rgb{colour}">■</span> ' if colour else "") + escape(name) for name, colour in rows
+        ))  # fmt: skip
+        self._names.setVisible(bool(rows))
         kinds = colouring.special_colours
         while len(self.swatches) < len(kinds):
-            swatch = SwatchButton()
-            swatch.clicked.connect(lambda _=False, swatch=swatch: self.special_clicked.emit(swatch.name))
-            self._layout.addWidget(swatch)
-            if self.swatches:
-                QWidget.setTabOrder(self.swatches[-1], swatch)
-            self.swatches.append(swatch)
+            self._add_swatch()
         for swatch, special, count in zip(self.swatches, kinds, counts or [0] * len(kinds), strict=False):
-            swatch.show_kind(special.name, count, QColor(*special.colour))
+            _show_special(swatch, special, count)
         for number, swatch in enumerate(self.swatches):
             swatch.setVisible(number < len(kinds))
         self._describe()
+
+    def _add_swatch(self) -> None:
+        """Add a button that isolates the hexes with its colour; it is disabled if there are none."""
+        swatch, number = QToolButton(), len(self.swatches)
+        set_variant(swatch, "small")
+        swatch.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        swatch.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        swatch.setIconSize(QSize(_SWATCH, _SWATCH))
+        swatch.clicked.connect(lambda: self.special_clicked.emit(self._gradient.colouring.special_colours[number].name))
+        self._layout.addWidget(swatch)
+        self.swatches.append(swatch)
 
     def ticks(self, length: float) -> list[float]:
         """Return the tick values for a gradient with a height in pixels."""
@@ -82,10 +97,15 @@ class ColourBar(QFrame):
     def _describe(self) -> None:
         colouring = self._gradient.colouring
         if colouring.names:
-            self._describe_names()
+            help = tr(
+                "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; "
+                "both are outlined. Drag the legend to move it; double-click it to reset its position."
+            )
+            set_help(self, tr("Legend of materials"), help)
+            self.setAccessibleDescription(tr("Materials: {names}", names=", ".join(colouring.names)))
             return
         low, high = colouring.label(colouring.low), colouring.label(colouring.high)
-        label, shown = self._title.text(), [swatch for swatch in self.swatches if not swatch.isHidden()]
+        label = self._title.text()
         set_help(
             self,
             tr("Colour bar"),
@@ -97,31 +117,23 @@ class ColourBar(QFrame):
                 label=label,
                 low=low,
                 high=high,
-                names=", ".join(tr(swatch.name) for swatch in shown),
+                names=", ".join(tr(special.name) for special in colouring.special_colours),
             ),
         )
-        texts = "; ".join(swatch_text(swatch.name, swatch.count) for swatch in shown)
+        texts = "; ".join(swatch.text() for swatch in self.swatches if not swatch.isHidden())
         self.setAccessibleDescription(
             tr("{texts}; {label} from {low} to {high}", texts=texts, label=label, low=low, high=high)
         )
 
-    def _describe_names(self) -> None:
-        names = ", ".join(self._names.names)
-        help = tr(
-            "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; both "
-            "are outlined. Drag the legend to move it; double-click it to reset its position."
-        )
-        set_help(self, tr("Legend of materials"), help)
-        self.setAccessibleDescription(tr("Materials: {names}", names=names))
-
     def sizeHint(self) -> QSize:
         """Return the width of the texts, and the default height."""
         title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _MAX_TITLE)
-        legend = self._names if self._names.names else self._gradient
+        has_names = bool(self._gradient.colouring.names)
+        legend = self._names if has_names else self._gradient
         widths = [title, legend.sizeHint().width()]
         widths += [swatch.sizeHint().width() for swatch in self.swatches if not swatch.isHidden()]
         margins = self._layout.contentsMargins()
-        height = min(_HEIGHT, super().sizeHint().height()) if self._names.names else _HEIGHT
+        height = min(_HEIGHT, super().sizeHint().height()) if has_names else _HEIGHT
         return QSize(max(widths) + margins.left() + margins.right(), height)
 
 
@@ -131,8 +143,6 @@ class _Gradient(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.colouring = Colouring("", 0.0, 1.0, np.zeros((1, 3), dtype=np.uint8))
-        self._key: tuple = ()  # values that `_drawn` depends on
-        self._drawn = QPixmap()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     def sizeHint(self) -> QSize:
@@ -152,20 +162,8 @@ class _Gradient(QWidget):
         return self.colouring.ticks(space, _MAX_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
-        shown = self.colouring
-        scale = shown.table.tobytes(), shown.low, shown.high, shown.beyond, self.font().key()
-        key = self.size(), self.devicePixelRatioF(), *scale, str(LINE), str(MUTED), str(TEXT)
-        if key != self._key:
-            self._key, self._drawn = key, self._draw()
-        QPainter(self).drawPixmap(0, 0, self._drawn)
-
-    def _draw(self) -> QPixmap:
-        colouring, ratio = self.colouring, self.devicePixelRatioF()
-        pixmap = QPixmap(self.size() * ratio)
-        pixmap.setDevicePixelRatio(ratio)
-        pixmap.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(pixmap)
+        """Paint gradient, ticks and numbers."""
+        colouring, painter = self.colouring, QPainter(self)
         painter.setFont(self.font())
         metrics = QFontMetricsF(self.font())
         half = metrics.height() / 2
@@ -182,5 +180,21 @@ class _Gradient(QWidget):
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
             painter.setPen(QColor(str(TEXT)))
             painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), colouring.label(value))
-        painter.end()
-        return pixmap
+
+
+def _show_special(swatch: QToolButton, special: SpecialColour, count: int) -> None:
+    """Show a special colour on a button, with the number of its hexes unless it is 0."""
+    name = tr(special.name)
+    text = f"{name} ({count:,})" if count else name
+    if text == swatch.text():
+        return
+    swatch.setText(text)
+    swatch.setEnabled(count > 0)
+    picture, icon = QPixmap(_SWATCH, _SWATCH), QIcon()
+    picture.fill(QColor(*special.colour))
+    for mode in (QIcon.Mode.Normal, QIcon.Mode.Disabled):
+        icon.addPixmap(picture, mode)
+    swatch.setIcon(icon)
+    set_help(swatch, tr("Isolate {name}", name=name), tr("Show only {name} hexes; Esc shows all again.", name=name))
+    widest = f"{name} (00,000)" if count else name  # so that the layout does not change with the number
+    swatch.setMinimumWidth(_SWATCH + 10 + swatch.fontMetrics().horizontalAdvance(widest))
