@@ -1,16 +1,15 @@
-"""Colour maps by name, registered by the modules of `hexmend_app.picture.colour_maps`."""
+"""Colour maps by name: those of matplotlib, and those of entry points."""
 
 from __future__ import annotations
 
-import pkgutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from importlib import import_module
+from functools import cached_property, partial
 
 import numpy as np
 
 from hexmend.registry import Registry, load_entry_points
+from hexmend_app.resources import resource
 
 #: Default map, and map of changes.
 DEFAULT_MAP, CHANGE_MAP = "viridis", "BrBG"
@@ -49,14 +48,27 @@ class ColourMap:
 
 
 def load_colour_maps() -> None:
-    """Import all modules of `hexmend_app.picture.colour_maps` and entry points, which registers their maps."""
-    package = import_module("hexmend_app.picture.colour_maps")
-    for module in pkgutil.iter_modules(package.__path__):
-        import_module(f"{package.__name__}.{module.name}")
+    """Import the modules of entry points, which registers their maps."""
     load_entry_points("hexmend.colour_maps", "colour map", COLOUR_MAPS.expect)
 
 
 COLOUR_MAPS: Registry[ColourMap] = Registry("colour map", load_colour_maps)
+
+
+def _stored(name: str) -> np.ndarray:
+    """Return the colours of a map of matplotlib from a file, so that matplotlib need not be imported."""
+    with np.load(resource("colour_maps.npz")) as tables:
+        return tables[name]
+
+
+for _name, _title, _help in (
+    ("viridis", "", "From violet over green to yellow."),
+    ("cividis", "", "From blue to yellow; looks nearly the same with all kinds of colour vision."),
+    ("plasma", "", "From blue over red to yellow."),
+    ("inferno", "", "From black over red to pale yellow."),
+    (CHANGE_MAP, "brown – teal", "For changes: from brown for worse over white for none to teal for better."),
+):
+    COLOUR_MAPS.add(_name, ColourMap(_name, _help, partial(_stored, _name), _title, diverging=_name == CHANGE_MAP))
 
 
 def value_maps() -> tuple[str, ...]:

@@ -83,12 +83,6 @@ def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] =
             yield figure
 
 
-def write_opposite_view(case: Case, folder: Path, style: Style) -> Figure:
-    """Write the figure `behind`: the meshes from the side opposite to `surface`; parameters as in `write_figures`."""
-    scene = replace(style.scene, cut=Cut(), camera=opposite(style.scene.camera))
-    return _mesh_figure(case, folder, style, "behind", scene, "whole, seen from the opposite side")
-
-
 def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
     """Check that the pages of the pictures can be drawn, before any method runs.
 
@@ -105,7 +99,7 @@ def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
     ParameterError
         If a page has too many or too few pixels.
     """
-    if not parts or {"surface", "cut"} & set(parts):
+    if not parts or {"surface", "behind", "cut"} & set(parts):
         try:
             figure_scene(style, style.scene, [""] * versions)
         except ParameterError as error:
@@ -156,6 +150,11 @@ def table_of(case: Case) -> Table:
 def _surface(case: Case, folder: Path, style: Style) -> Figure:
     scene = replace(style.scene, cut=Cut())
     return _mesh_figure(case, folder, style, "surface", scene, f"whole, {seen_from(scene.camera)}")
+
+
+def _behind(case: Case, folder: Path, style: Style) -> Figure:
+    scene = replace(style.scene, cut=Cut(), camera=opposite(style.scene.camera))
+    return _mesh_figure(case, folder, style, "behind", scene, "whole, seen from the opposite side")
 
 
 def _cut(case: Case, folder: Path, style: Style) -> Figure:
@@ -214,6 +213,7 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
 #: Figures of a set in order, and the functions that write them.
 PARTS: dict[str, Callable[[Case, Path, Style], Figure | None]] = {
     "surface": _surface,
+    "behind": _behind,
     "cut": _cut,
     "distributions": _distributions,
     "convergence": _convergence,

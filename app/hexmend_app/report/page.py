@@ -21,17 +21,14 @@ from hexmend.study.machine import machine
 from hexmend.study.table_row import Row
 from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report.case import Case, Version
-from hexmend_app.report.figure_set import Figure, Style, table_of, write_figures, write_opposite_view
+from hexmend_app.report.figure_set import PARTS, Figure, Style, table_of, write_figures
 from hexmend_app.report.templates import ENVIRONMENT, html, read
 from hexmend_app.report.viewer import script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
 from hexmend_app.state.mesh.hex_groups import invalid_counts
 
-#: Parts of the figure set in the page, by format.
-_PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
-
-#: Names of the figures in the order in which they are drawn; the last needs a run.
-FIGURES = ("opposite side", "surface", "cut", "distributions", "convergence")
+#: Figures that are drawn as SVG.
+_PLOTS = ("distributions", "convergence")
 
 #: Width of a plot in mm, at which its text has the size of the page's text.
 _PLOT = 120.0
@@ -60,9 +57,10 @@ class Chapter:
     sections: Mapping[str, Sequence[str]]
 
 
-def figures_of(case: Case) -> tuple[str, ...]:
-    """Return the names of the figures of a chapter in the order in which they are drawn."""
-    return FIGURES if any(version.history for version in case.versions) else FIGURES[:-1]
+def figures_of(case: Case) -> list[str]:
+    """Return the names of the figures of a chapter in the order in which they are drawn; convergence needs a run."""
+    has_run = any(version.history for version in case.versions)
+    return [part for part in PARTS if part != "table" and (part != "convergence" or has_run)]
 
 
 def draw_chapter(
@@ -183,20 +181,19 @@ def _solver_verdict(report: Report) -> str:
 def _figures(case: Case, style: Style, interactive: bool) -> Generator[Figure, None, list[str]]:
     """Draw the pictures one by one, and return the interactive view of the mesh and the pictures as HTML."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
-        figures = [write_opposite_view(case, Path(folder), style)]
-        yield figures[0]
-        for suffix, options in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
-            for figure in write_figures(case, Path(folder), options, _PICTURES[suffix]):
-                figures.append(figure)
+        plots = replace(style, width=_PLOT, formats=("svg",))
+        pictures = {}
+        for part in figures_of(case):
+            for figure in write_figures(case, Path(folder), plots if part in _PLOTS else style, [part]):
+                pictures[part] = html.picture(figure.paths[0], figure.caption)
                 yield figure
-        pictures = {figure.part: html.picture(figure.paths[0], figure.caption) for figure in figures}
     view = viewer(case.versions, pictures["surface"]) if interactive else pictures["surface"]
-    plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
+    pair = Markup().join(pictures[part] for part in _PLOTS if part in pictures)
     return [
         view,
         pictures["behind"],
         pictures["cut"],
-        Markup('<div class="pair">{}</div>').format(Markup().join(plots)),
+        Markup('<div class="pair">{}</div>').format(pair),
     ]
 
 

@@ -64,8 +64,8 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
     folder = tmp_path / "set"
     names = ["--names", "Given,Smoothed,Mended", "--width-mm", "120", "--format", "png,svg", "--view", "-x"]
     assert hexmend("figures", mesh_file, *METHODS, *names, "-o", folder) == 0
-    kinds = {"surface": "png svg", "cut": "png svg", "distributions": "png svg", "convergence": "png svg"}
-    expected = {f"{part}.{kind}" for part, several in kinds.items() for kind in several.split()}
+    parts = ("surface", "behind", "cut", "distributions", "convergence")
+    expected = {f"{part}.{kind}" for part in parts for kind in ("png", "svg")}
     expected |= {f"table.{kind}" for kind in ("csv", "md", "tex", "json")} | {"captions.md", "commands.sh"}
     assert {path.name for path in folder.iterdir()} == expected
     with Image.open(folder / "surface.png") as picture:
@@ -74,9 +74,9 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
     assert [row["name"] for row in json.loads((folder / "table.json").read_text())["rows"]] == ["Smoothed", "Mended"]
     lines = (folder / "commands.sh").read_text().splitlines()
     again = [shlex.split(line)[1:] for line in lines if line.startswith("hexmend")]
-    assert [words[-1] for words in again] == ["surface", "cut", "distributions", "convergence", "table"]
+    assert [words[-1] for words in again] == [*parts, "table"]
     before = (folder / "distributions.svg").read_bytes(), (folder / "surface.png").read_bytes()
-    for words in (again[0], again[2]):
+    for words in (again[0], again[3]):
         assert hexmend(*words) == 0
     assert ((folder / "distributions.svg").read_bytes(), (folder / "surface.png").read_bytes()) == before
 

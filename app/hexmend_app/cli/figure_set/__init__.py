@@ -18,7 +18,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the figures")
     parser.add_argument("--format", metavar="A,B,...", help="png, pdf, svg (default png)")
     parser.add_argument("--width-mm", metavar="X", help="width of each figure in mm (default 170)")
-    text = "surface, cut, distributions, convergence or table"
+    text = "surface, behind (the opposite side), cut, distributions, convergence or table"
     parser.add_argument("--only", metavar="PART", action="append", default=[], help=text)
     run_options.add_arguments(parser)
 

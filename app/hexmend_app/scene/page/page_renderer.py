@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageChops
 
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
@@ -180,21 +180,21 @@ def format_of(path: Path) -> str:
 
 def _cropped(layout: Layout, drawn: Rasters) -> tuple[Layout, Rasters]:
     """Crop margins that are empty in all panels; an empty page is not cropped."""
-    mask = np.logical_or.reduce([_drawn_pixels(image, layout.scene.page.ground) for image in drawn.images])
-    if not mask.any():
+    boxes = [box for image in drawn.images if (box := _box_of_drawn(image, layout.scene.page.ground))]
+    if not boxes:
         return layout, drawn
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    box = int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
+    left, top, right, bottom = zip(*boxes, strict=True)
+    box = min(left), min(top), max(right), max(bottom)
     images = [image.crop(box) for image in drawn.images]
     return layout.cropped(images[0].size), replace(drawn, images=images)
 
 
-def _drawn_pixels(image: Image.Image, ground: str | None) -> np.ndarray:
-    """Return True for drawn pixels, (height, width) bool."""
-    pixels = np.asarray(image).astype(np.int16)
+def _box_of_drawn(image: Image.Image, ground: str | None) -> tuple[int, int, int, int] | None:
+    """Return the left, upper, right and lower end of the drawn pixels; None if there are none."""
     if ground is None:
-        return pixels[..., 3] > 0
-    return np.abs(pixels - np.frombuffer(bytes.fromhex(ground[1:]), np.uint8)).max(axis=2) > _THRESHOLD
+        return image.getchannel("A").getbbox()
+    difference = ImageChops.difference(image, Image.new(image.mode, image.size, ground))
+    return difference.point(lambda value: value > _THRESHOLD).getbbox()
 
 
 def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner) -> None:
