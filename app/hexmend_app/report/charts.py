@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.storage.atomic import atomic_write
@@ -103,21 +103,6 @@ class ChartStyle(Parametrised):
         height = self.height or shape * self.width
         self._check_pixels(height)
         return new_figure(self.width / MM_PER_INCH, height / MM_PER_INCH)
-
-
-class ExportedChart(Protocol):
-    """A chart that can be drawn in any style."""
-
-    @property
-    def title(self) -> str:
-        """Title, unless the style has another."""
-
-    @property
-    def names(self) -> list[str]:
-        """Labels of the curves, each once."""
-
-    def draw(self, style: ChartStyle) -> Figure:
-        """Draw the figure."""
 
 
 #: Draws a chart.

@@ -14,7 +14,7 @@ from hexmend_app.cli import scene_options
 from hexmend_app.cli.numbers import page_size, parse_integer
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.film.film_files import format_of, write_film
-from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames, pictures
+from hexmend_app.scene.film.film_frames import chosen_iterations, pictures
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import RecordedIteration
@@ -38,8 +38,15 @@ def run(args: argparse.Namespace) -> int:
     numbers = chosen_iterations(history, record, max_frames)
     start = ReferenceState(mesh.points, run.start.quality, "before the run")
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if scene.shows_movement else None
-    states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
-    frames = pictures(states, scene, movement=movement, histogram=args.histogram, before=args.before)
+    frames = pictures(
+        record,
+        numbers,
+        lambda number: history.state(RecordedIteration(record, number), mesh),
+        scene,
+        movement=movement,
+        histogram=args.histogram,
+        before=args.before,
+    )
     drawn = [*show_count(frames, len(numbers), "drawing frames")]
     write_film(path, drawn, rate, poster=args.poster)
     result = run.result()

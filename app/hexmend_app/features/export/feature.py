@@ -225,15 +225,19 @@ class FeatureExport(Feature):
 
     def _pictures(self, scene: Scene, options: FilmOptions) -> Generator[Image.Image]:
         """Generate the frames of the current run."""
-        from hexmend_app.scene.film.film_frames import film_frames, pictures
+        from hexmend_app.scene.film.film_frames import pictures
 
         record, history, mesh = self.session.timeline.record, self.session.history, self.session.document.now.mesh
-        frames = film_frames(
-            record, self._iterations(options), lambda number: history.state(RecordedIteration(record, number), mesh)
-        )
         movement, aspect = self.canvas.viewport.frame.movement, self.canvas.width() / self.canvas.height()
         return pictures(
-            frames, scene, movement=movement, histogram=options.histogram, before=options.before, aspect=aspect
+            record,
+            self._iterations(options),
+            lambda number: history.state(RecordedIteration(record, number), mesh),
+            scene,
+            movement=movement,
+            histogram=options.histogram,
+            before=options.before,
+            aspect=aspect,
         )
 
     def write_report(self, path: Path) -> None:

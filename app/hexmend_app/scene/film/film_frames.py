@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from PIL import Image
@@ -20,25 +20,6 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RunRecord
 
 
-@dataclass(frozen=True, eq=False)
-class FilmFrame:
-    """Frame of a film: a state of the mesh with a caption.
-
-    Parameters
-    ----------
-    title : str
-        Title of the run.
-    place : str
-        Place of the frame in the run.
-    state : State
-        State of the mesh; frames differ in positions of nodes only.
-    """
-
-    title: str
-    place: str
-    state: State
-
-
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:
     """Return the numbers of at most `frames` recorded iterations, including the first and the last."""
     recorded = history.recorded_numbers(record)
@@ -46,18 +27,14 @@ def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[
     return recorded[np.unique(positions.round().astype(int))].tolist()
 
 
-def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int], State]) -> Iterator[FilmFrame]:
-    """Generate the frames of iterations; `state` returns the state of an iteration by its number."""
-    for number in numbers:
-        yield FilmFrame(record.title, _place(record, number), state(number))
-
-
 def _place(record: RunRecord, number: int) -> str:
     return record.label(number) if record.holds_times else f"iteration {number} of {record.newest}"
 
 
 def pictures(
-    film_frames: Iterable[FilmFrame],
+    record: RunRecord,
+    numbers: Sequence[int],
+    state: Callable[[int], State],
     scene: Scene,
     *,
     movement: Displacement | None = None,
@@ -65,11 +42,15 @@ def pictures(
     before: bool = False,
     aspect: float = 0.0,
 ) -> Generator[Image.Image]:
-    """Generate the pictures of film frames: pages of a scene, drawn off screen with the same camera.
+    """Generate the pictures of iterations of a run: pages of a scene, drawn off screen with the same camera.
 
     Parameters
     ----------
-    film_frames : iterable of FilmFrame
+    record : RunRecord
+    numbers : sequence of int
+        Numbers of the iterations.
+    state : callable
+        Returns the state of an iteration by its number; states differ in positions of nodes only.
     scene : Scene
         Its panels are replaced.
     movement : Displacement, optional
@@ -87,16 +68,17 @@ def pictures(
     views: PageViews | None = None
     last: ReferenceState | None = None
     with ExitStack() as stack:
-        for frame in film_frames:
-            mesh, figures = frame.state.mesh, frame.state.figures
+        for number in numbers:
+            place, now = _place(record, number), state(number)
+            mesh, figures = now.mesh, now.figures
             if movement is not None:
                 current = ReferenceState(mesh.points, figures, "the last frame")
                 start = last if scene.movement.since is Since.ITERATION else movement.before
                 movement = Displacement(movement.mesh, start or current, mesh.points, figures)
                 last = current
-            shown = PageMesh(mesh, figures, movement, name=frame.place if before else f"{frame.title}, {frame.place}")
+            shown = PageMesh(mesh, figures, movement, name=place if before else f"{record.title}, {place}")
             meshes = [*(meshes[:1] or [replace(shown, name="Before")]), shown] if before else [shown]
-            panels = tuple(PicturePanel(mesh=number, caption=one.name) for number, one in enumerate(meshes, 1))
+            panels = tuple(PicturePanel(mesh=at, caption=one.name) for at, one in enumerate(meshes, 1))
             layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=histogram)
             if views is None:
                 views = stack.enter_context(page_views(layout, aspect=aspect))

@@ -22,7 +22,9 @@ from PySide6.QtWidgets import (
 from hexmend.errors import ParameterError
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
-from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, ExportedChart, chart_png
+from hexmend_app.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, chart_png
+from hexmend_app.report.convergence import Convergence
+from hexmend_app.report.histogram import Histogram
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
@@ -134,14 +136,14 @@ class ChartDialog(ExportDialog):
 
     Parameters
     ----------
-    chart : ExportedChart
+    chart : Convergence or Histogram
     subject, name, kinds, style
         See `ExportDialog`.
     """
 
     def __init__(
         self,
-        chart: ExportedChart,
+        chart: Convergence | Histogram,
         subject: str,
         name: str,
         kinds: str,

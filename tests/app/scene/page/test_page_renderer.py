@@ -11,12 +11,13 @@ from hexmend_app.picture import Camera, Colours, Cut, PicturePanel, Plane, Range
 from hexmend_app.picture.colour_map import COLOUR_MAPS
 from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Page, TextPlace
 from hexmend_app.scene.colour.colouring import INVERTED
-from hexmend_app.scene.film.film_frames import FilmFrame, pictures
+from hexmend_app.scene.film.film_frames import pictures
 from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page
 from hexmend_app.scene.page.rasters import rasters
 from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import History
 from tests.core.grids import grid, scrambled
 
 BARE = {"bar": ColourBarStyle(TextPlace.NONE), "axes": AxesStyle(show=False)}
@@ -163,9 +164,11 @@ def test_a_later_frame_of_a_film_equals_the_page_of_its_mesh(before):
     scene = Scene(camera=camera, page=Page(pixels=(480, 300), supersampling=1))
     first = scrambled(grid(3), 0.7)
     last = first.with_points(scrambled(grid(3), 0.2).points)
-    frames = [FilmFrame("run", f"frame {k}", State.of(mesh)) for k, mesh in enumerate((first, last))]
-    _, drawn = pictures(frames, scene, histogram=True, before=before)
-    named = [(first, "Before"), (last, "frame 1")] if before else [(last, "run, frame 1")]
+    states, name = [State.of(mesh) for mesh in (first, last)], "iteration 1 of 1"
+    record = History().begin("run", states[0])
+    record.rows = [{}, {}]
+    _, drawn = pictures(record, (0, 1), states.__getitem__, scene, histogram=True, before=before)
+    named = [(first, "Before"), (last, name)] if before else [(last, f"run, {name}")]
     panels = tuple(PicturePanel(mesh=number, caption=name) for number, (_, name) in enumerate(named, 1))
     meshes = [PageMesh.of(mesh, name) for mesh, name in named]
     layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=True)
