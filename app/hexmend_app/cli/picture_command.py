@@ -7,15 +7,21 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from hexmend.cli.command import action
+from hexmend.signal_guard import uninterrupted
 
 
 class PictureCommand(NamedTuple):
-    """Command that draws: its declaration, and the module whose function `run` implements it."""
+    """Command that draws: its name, help and function that adds its arguments, and the module that implements it."""
 
     name: str
     help: str
-    arguments: Callable[[argparse.ArgumentParser], None]
+    add: Callable[[argparse.ArgumentParser], None]
     module: str
+
+    @uninterrupted  # it imports modules
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Add the arguments to a parser."""
+        self.add(parser)
 
     def run(self, args: argparse.Namespace) -> int:
         """Run the command and return its exit status."""

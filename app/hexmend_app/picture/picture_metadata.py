@@ -164,7 +164,7 @@ def _texts(path: Path) -> dict[str, str]:
     """Return the texts of a PNG by keyword; its pixels are not decoded."""
     try:
         with Image.open(path, formats=["PNG"]) as image:
-            return {keyword: text for keyword, text in image.info.items() if isinstance(text, str)}
+            return {str(keyword): text for keyword, text in image.info.items() if isinstance(text, str)}
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         problem = getattr(error, "strerror", None) or "the picture is damaged"
         raise FileError(path, f"cannot be read: {problem}", "Copy the picture again.") from None

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.signal_guard import uninterrupted
 from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Write the figure set of a mesh: before and after, distributions, convergence, the table, captions, commands."
 
 
-@uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
     from hexmend_app.cli import run_options
 

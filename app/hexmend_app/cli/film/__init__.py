@@ -5,13 +5,11 @@ from __future__ import annotations
 import argparse
 
 from hexmend.cli.arguments.options import add_force, add_method, add_surface
-from hexmend.signal_guard import uninterrupted
 from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Run a method and write an animation of its iterations: MP4, GIF, WebP or PNG, by the suffix."
 
 
-@uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
     from hexmend_app.cli.scene_options import add_arguments
 

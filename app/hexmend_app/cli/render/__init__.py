@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.signal_guard import uninterrupted
 from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
 
 
-@uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
     from hexmend_app.cli.scene_options import add_arguments
 

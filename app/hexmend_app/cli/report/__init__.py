@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.signal_guard import uninterrupted
 from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Write a report on meshes before and after smoothing, with all measurements: one HTML page, or PDF."
 
 
-@uninterrupted
 def _arguments(parser: argparse.ArgumentParser) -> None:
     from hexmend_app.cli import run_options
 

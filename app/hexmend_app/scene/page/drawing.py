@@ -104,9 +104,20 @@ class Drawing:
         """Draw an arrow, outlined in the background colour."""
         from matplotlib.patches import FancyArrowPatch
 
-        size: dict[str, Any] = {"linewidth": 1.6 * self.line * self._points, "mutation_scale": self.letters.points}
-        place = {"transform": self._place, "path_effects": self._halo, "shrinkA": 0, "shrinkB": 0, "zorder": 3}
-        self._figure.add_artist(FancyArrowPatch(start, end, arrowstyle="-|>", color=colour, **size, **place))
+        arrow = FancyArrowPatch(
+            start,
+            end,
+            arrowstyle="-|>",
+            color=colour,
+            linewidth=1.6 * self.line * self._points,
+            mutation_scale=self.letters.points,
+            shrinkA=0,
+            shrinkB=0,
+            transform=self._place,
+            path_effects=self._halo,
+            zorder=3,
+        )
+        self._figure.add_artist(arrow)
 
     @property
     def _halo(self) -> list[Any]:

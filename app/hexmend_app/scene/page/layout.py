@@ -13,8 +13,8 @@ from hexmend_app.picture import Captions, PicturePanel, Scene, TextPlace
 from hexmend_app.picture.colours import MATERIAL, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import INVALID_COLOURS
-from hexmend_app.scene.colour.material_colours import material_names, material_table
-from hexmend_app.scene.page.lettering import MOST_BELOW, Entry, Lettering, name_entries, rows_of
+from hexmend_app.scene.colour.material_colours import material_names
+from hexmend_app.scene.page.lettering import Entry, Lettering
 from hexmend_app.scene.page.page_mesh import PageMesh
 
 #: Sizes in font heights: height of captions, gap between panels, height of the strip of a colour bar below, height of a
@@ -100,6 +100,8 @@ class Layout:
         letter, panels = Lettering(scene.page).height, scene.panels_of(len(meshes))
         bar_fits = width >= _MIN_SIZE[0] * letter and height >= _MIN_SIZE[1] * letter
         bar = scene.bar.place if bar_fits and not scene.colours.neutral else TextPlace.NONE
+        if bar is TextPlace.BELOW and scene.colours.metric == MATERIAL.name:
+            bar = TextPlace.RIGHT  # the names of materials need a column
         captions = scene.page.captions is not Captions.NONE and (
             len(panels) > 1 or any(panel.caption or panel.wipe for panel in panels)
         )
@@ -118,9 +120,7 @@ class Layout:
         """Return the layout with smaller panels; it stays wide enough for the colour bar."""
         extra = self.around
         width = panel[0] * self.columns + extra[0]
-        if self.bar is TextPlace.BELOW and self.names:
-            width = self.size[0]  # the rows of the legend need it
-        elif self.bar is TextPlace.BELOW:
+        if self.bar is TextPlace.BELOW:
             width = max(width, min(self.size[0], round(_MIN_SIZE[0] * self.letters.height)))
         return replace(self, panel=panel, size=(width, panel[1] * self.rows + extra[1]))
 
@@ -166,15 +166,6 @@ class Layout:
         """Names of the materials if the colours show these, else none: a legend takes the place of the colour bar."""
         return material_names(self.meshes[0].mesh) if self.scene.colours.metric == MATERIAL.name else ()
 
-    def legend(self, most: int, more: Sequence[Entry] = ()) -> list[Entry]:
-        """Return the entries of the legend: the title, at most so many names, and more."""
-        return [(self.title, None), *name_entries(self.names, material_table(len(self.names)), most), *more]
-
-    @property
-    def legend_width(self) -> float:
-        """Width of a row of the legend below the panels, in pixels."""
-        return self.size[0] - 2 * self.scene.page.pixels_of(self.scene.page.margin) - self.letters.height
-
     @property
     def long_title(self) -> bool:
         """True if the title is above the bar instead of next to it."""
@@ -206,9 +197,6 @@ class Layout:
     @cached_property
     def strip(self) -> int:
         """Height of the strip of the colour bar below the panels, or its width at the right, in pixels."""
-        if self.names and self.bar is TextPlace.BELOW:
-            rows = rows_of(self.letters, self.legend(MOST_BELOW, _SPECIAL), self.legend_width)
-            return round((_ROW * len(rows) + 0.8) * self.letters.height)
         swatches = 3 if self.scene.colours.metric == "q-change" else len(_SPECIAL)
         if self.bar is TextPlace.RIGHT:
             width = max(_SIDE + self.letters.em("0.0000"), 2 + max(self.letters.em(text) for text, _ in _SPECIAL))

@@ -1,4 +1,4 @@
-"""Lettering of a page: font, which is shipped with matplotlib, widths of texts, and rows of the entries of a legend."""
+"""Lettering of a page: font, which is shipped with matplotlib, widths of texts, and entries of a legend."""
 
 from __future__ import annotations
 
@@ -19,11 +19,6 @@ _MEASURED_SIZE = 200
 
 #: Additional width of a letter in pixels when it is rasterised, because positions are rounded to whole pixels.
 _ROUNDING = 0.4
-
-#: Most names of a legend below the panels, which may take several rows.
-MOST_BELOW = 24
-#: Sizes in font heights: swatch with its gap, and gap between entries.
-_SWATCH, _GAP = 1.3, 1.2
 
 #: Entry of a legend: a text and its colour, red, green and blue from 0 to 255; None for a text alone.
 Entry = tuple[str, tuple[int, int, int] | None]
@@ -76,23 +71,3 @@ def name_entries(names: Sequence[str], table: Iterable[Iterable[int]], most: int
         return entries
     first = entries[: max(most - 1, 0)]
     return [*first, (f"and {len(entries) - len(first):,} more", None)]
-
-
-def entry_width(letters: Lettering, entry: Entry) -> float:
-    """Return the width of an entry with the gap after it, in pixels."""
-    text, colour = entry
-    return letters.width(text) + ((_SWATCH if colour is not None else 0) + _GAP) * letters.height
-
-
-def rows_of(letters: Lettering, entries: Iterable[Entry], width: float) -> list[list[Entry]]:
-    """Distribute entries over rows of a width in pixels."""
-    rows: list[list[Entry]] = [[]]
-    used = 0.0
-    for entry in entries:
-        needed = entry_width(letters, entry)
-        if rows[-1] and used + needed > width:
-            rows.append([])
-            used = 0.0
-        rows[-1].append(entry)
-        used += needed
-    return rows

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from hexmend_app.picture import TextPlace
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
-from hexmend_app.scene.page.lettering import MOST_BELOW, Entry, entry_width, rows_of
+from hexmend_app.scene.page.lettering import Entry, name_entries
 from hexmend_app.scene.page.rasters import Rasters
 
 #: Sizes in font heights: gradient, tick, padding at the sides, gap between texts, swatch.
@@ -77,19 +77,11 @@ def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
 
 
 def _draw_names(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
-    """Draw the legend of materials and special colours: in rows below the panels, or in a column at the right."""
-    letter, box = drawing.letters.height, layout.bar_place
-    special = drawn.special_colours
-    if layout.bar is TextPlace.BELOW:
-        rows = rows_of(drawing.letters, layout.legend(MOST_BELOW, special), layout.legend_width)
-    else:
-        most = int(box.height / (_ROW * letter)) - len(special) - 2
-        rows = [[entry] for entry in layout.legend(most, special)]
-    for row, entries in enumerate(rows):
-        x, middle = box.left + 0.5 * letter, box.top + (0.9 + _ROW * row) * letter
-        for entry in entries:
-            _draw_entry(drawing, x, middle, entry)
-            x += entry_width(drawing.letters, entry)
+    """Draw the legend of materials and special colours in a column."""
+    letter, box, special = drawing.letters.height, layout.bar_place, drawn.special_colours
+    most = int(box.height / (_ROW * letter)) - len(special) - 2
+    names = name_entries(layout.names, drawn.colouring.table, most)
+    _draw_column(drawing, [(layout.title, None), *names, *special], box.left + 0.5 * letter, box.top + 0.9 * letter)
 
 
 def _draw_column(drawing: Drawing, entries: Sequence[Entry], left: float, first: float) -> None:

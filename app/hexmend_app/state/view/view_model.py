@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -113,10 +112,11 @@ class ViewModel(QObject):
         ParameterError
             If a value is invalid.
         """
-        look = replace(self.look, **{
+        changed: dict[str, Any] = {
             name: replace(getattr(self.look, name), **table) if isinstance(table, dict) else table
             for name, table in tables.items()
-        })  # fmt: skip
+        }
+        look = replace(self.look, **changed)
         if look != self.look:
             self.look = look
             if not look.show.hidden:
@@ -137,9 +137,9 @@ class ViewModel(QObject):
 
     def show_as(self, look: Look) -> None:
         """Show the look of a picture except the size of its page; undo restores its hidden hexes by number."""
-        look = dataclasses.replace(look, page=Page(shading=look.page.shading))
+        look = replace(look, page=Page(shading=look.page.shading))
         hidden = tuple(sorted(look.show.hidden))
-        self.restore(dataclasses.replace(self.to_data(), look=look, dug=hidden, plane_at=0))
+        self.restore(replace(self.to_data(), look=look, dug=hidden, plane_at=0))
 
     def colour_by(self, metric: str) -> None:
         """Request to colour by a metric or a displacement in its default range."""
@@ -147,7 +147,7 @@ class ViewModel(QObject):
 
     def store_remaining_hexes(self, left: np.ndarray | None) -> None:
         """Store the hexes kept by a cut by whole hexes, (m,) bool, so that they stay the same while nodes move."""
-        self.look = dataclasses.replace(self.look, cut=self.look.cut.with_hexes(left))
+        self.look = replace(self.look, cut=self.look.cut.with_hexes(left))
 
     def show_all(self) -> None:
         """Show all hexes: remove the cut, filters, isolation and dug hexes."""
@@ -172,17 +172,17 @@ class ViewModel(QObject):
         if cut.planes:
             self.set_cut(cut.with_plane(self.plane_at, plane))
         elif cut.slab is not None:
-            self.set_cut(dataclasses.replace(cut, slab=cut.slab.moved_to(plane), hexes=""))
+            self.set_cut(replace(cut, slab=cut.slab.moved_to(plane), hexes=""))
 
     def drag_sphere(self, centre: tuple[float, float, float], radius: float) -> None:
         """Move the sphere of the cut to where it is dragged, or change its radius."""
         if self.look.cut.sphere is not None:
-            self.set_cut(dataclasses.replace(self.look.cut, sphere=Sphere(centre, radius), hexes=""))
+            self.set_cut(replace(self.look.cut, sphere=Sphere(centre, radius), hexes=""))
 
     def drag_box(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
         """Move the box of the cut to where it is dragged; corners as (x, y, z)."""
         if self.look.cut.box is not None:
-            self.set_cut(dataclasses.replace(self.look.cut, box=Box(low, high), hexes=""))
+            self.set_cut(replace(self.look.cut, box=Box(low, high), hexes=""))
 
     def start_measuring(self) -> None:
         """Let clicks in the view pick points to measure."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.picture import ColourBarStyle, Colours, Page, Range, Scene, TextPlace
+from hexmend_app.picture import Colours, Page, Range, Scene
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED, Colouring, are_invalid, range_label, resolve
@@ -171,9 +171,8 @@ def test_thirty_materials_have_different_colours_and_none_is_that_of_inverted_he
     assert np.abs(table.astype(int) - INVERTED).sum(axis=1).min() > 60
 
 
-@pytest.mark.parametrize("place", [TextPlace.BELOW, TextPlace.RIGHT])
-def test_a_page_has_a_legend_with_the_materials(place):
-    scene = Scene(colours=Colours("material"), bar=ColourBarStyle(place), page=Page(pixels=(700, 400)))
+def test_a_page_has_a_legend_with_the_materials():
+    scene = Scene(colours=Colours("material"), page=Page(pixels=(700, 400)))
     layout, page = Layout.of(scene, [PageMesh.of(TWO)]), draw_page(scene, [PageMesh.of(TWO)]).image()
     legend = layout.bar_place
     image = page.crop((legend.left, legend.top, legend.left + legend.width, legend.top + legend.height))
