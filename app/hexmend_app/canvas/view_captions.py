@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import MUTED, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, set_help, smaller, tabular, tint, tool_button
+from hexmend_app.theme.style import bold, cross_button, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import figure
-
-_CROSS = 11
 
 #: Height of a row in pixels; with a screen scale of 150 %, a multiple of four gives whole device pixels.
 HEIGHT = 24
@@ -105,8 +103,7 @@ class CaptionRow(QWidget):
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
         if number:
-            cross = tool_button("close", MUTED)
-            cross.setIconSize(QSize(_CROSS, _CROSS))
+            cross = cross_button()
             help = tr("Close the view of {name}", name=caption.name)
             set_help(cross, help, help)
             cross.clicked.connect(lambda: self.closed.emit(number))
