@@ -53,10 +53,7 @@ class CameraPose:
     def looks_like(self, other: CameraPose) -> bool:
         """Return True if both poses give the same picture, up to rounding."""
         unit = max(self.distance, other.distance)
-        shifts = [np.subtract(getattr(self, name), getattr(other, name)) for name in ("position", "focal")]
-        return (
-            self.parallel == other.parallel
-            and abs(self.scale - other.scale) <= _TOLERANCE * max(self.scale, other.scale)
-            and bool(max(map(np.linalg.norm, shifts)) <= _TOLERANCE * unit)
-            and bool(np.linalg.norm(np.subtract(self.up, other.up)) <= _TOLERANCE)
+        mine, others = (
+            np.array([*pose.position, *pose.focal, *np.multiply(unit, pose.up), pose.scale]) for pose in (self, other)
         )
+        return self.parallel == other.parallel and bool(np.abs(mine - others).max() <= _TOLERANCE * unit)
