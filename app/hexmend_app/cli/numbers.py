@@ -8,15 +8,6 @@ from typing import Any
 from hexmend.errors import ParameterError
 
 
-def direction(text: str, option: str) -> tuple[float, ...]:
-    """Parse a vector and scale it so that its largest component is 1 or -1."""
-    vector = numbers(text, 3, option)
-    largest = max(map(abs, vector))
-    if not largest > 0:
-        raise invalid_value(option, text, "a direction that is not zero")
-    return tuple(number / largest for number in vector)
-
-
 def numbers(text: str, count: int, option: str) -> tuple[float, ...]:
     """Parse `count` numbers separated by commas, with or without brackets."""
     try:

@@ -7,7 +7,7 @@ import re
 from math import isfinite
 from typing import Any
 
-from hexmend_app.cli.numbers import direction, invalid_value, numbers
+from hexmend_app.cli.numbers import invalid_value, numbers
 from hexmend_app.codec.conversion import decode, encode
 from hexmend_app.codec.value_text import parse_value
 from hexmend_app.picture import CutKind, Plane, Range, Scene, read_scene
@@ -115,11 +115,8 @@ def _given(args: argparse.Namespace) -> list[tuple[str, Any]]:
 def parse_plane(text: str) -> Plane:
     """Parse the value of `--clip`: an axis or a normal, and a position from 0 to 1 through the mesh."""
     axis, _, position = text.partition(":")
-    normal = _AXES.get(axis.lower()) or direction(axis, "--clip")
     (share,) = numbers(position, 1, "--clip") if position else (0.5,)
-    if not 0 <= share <= 1:
-        raise invalid_value("--clip", text, "a position from 0 to 1, as in x:0.5")
-    return Plane(normal, share)
+    return Plane(_AXES.get(axis.lower()) or numbers(axis, 3, "--clip"), share)
 
 
 def _parse_structure(text: str) -> Structure:

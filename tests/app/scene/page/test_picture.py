@@ -73,8 +73,8 @@ def test_a_quality_range_hides_the_others(pictures):
 
 INVALID_OPTIONS = [
     (["--clip", "w"], "--clip 'w' cannot be used"),
-    (["--clip", "0,0,0"], "a direction that is not zero"),
-    (["--clip", "x:1.5"], "a position from 0 to 1"),
+    (["--clip", "0,0,0"], "normal = [0, 0, 0] is no direction"),
+    (["--clip", "x:1.5"], "position = 1.5 is out of range: expected a number from 0 to 1"),
     (["--key", "cut.depth={ low = 1 }", "--smooth"], "has whole hexes"),
     (["--key", "cut.sphere={ size = 1 }"], "[cut] sphere has an unknown key 'size'"),
     (["--key", "cut.depth=deep"], "[cut] depth"),
