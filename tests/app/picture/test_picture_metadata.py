@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from PIL import Image
+from PIL import Image, ImageFile
 from PIL.PngImagePlugin import PngInfo
 
 from hexmend import FileError, ParameterError, Recipe
@@ -20,6 +20,12 @@ def written(path, metadata, compressed=False):
         info.add_itxt(keyword, text, zip=compressed)
     Image.new("RGB", (40, 30)).save(path, pnginfo=info)
     return path
+
+
+@pytest.fixture(autouse=True)
+def strict(monkeypatch):
+    """Let Pillow check what it reads; WeasyPrint, which another test may have imported, makes it lenient."""
+    monkeypatch.setattr(ImageFile, "LOAD_TRUNCATED_IMAGES", False)
 
 
 @pytest.fixture
