@@ -56,7 +56,7 @@ def cut_open(cut: Cut) -> str:
     'cut across x at 25 % of its extent'
     >>> cut_open(Cut((Plane((0.0, 0.0, -1.0), point=(0.0, 0.0, 2.0)), Plane()), style=CutStyle.SMOOTH))
     'cut across -z through (0, 0, 2) and across x at 50 % of its extent, through the hexes'
-    >>> from hexmend_app.picture import Sphere
+    >>> from hexmend_app.picture import Slab, Sphere
     >>> cut_open(Cut(slab=Slab(thickness=0.2))), cut_open(Cut(sphere=Sphere((0, 0, 1), 2), notch=True))
     ('cut by a slab across x at 50 % of its extent', 'cut by a sphere, without its inside')
     """
