@@ -192,6 +192,9 @@ class SlidingNodes(Band):
             Nodes at which the band is examined; all by default.
         """
         flipped, outside = self.flipped_quads(before, after), self.nodes_outside_band(after, changed)
+        if outside.size and not differing_rows(before[outside], after[outside]).any():
+            # Other faces were closer to the surface before, and have moved away.
+            outside = outside if self.nodes_outside_band(before).size else self.nodes
         if not flipped.size:
             return outside
         found = mask(self.boundary.faces[flipped], len(after))
