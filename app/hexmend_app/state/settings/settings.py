@@ -76,7 +76,6 @@ def store_in(folder: str) -> None:
 
 #: Numbers from 1, and shares.
 _Positive = Annotated[int, Meta(ge=1)]
-_Share = Annotated[float, Meta(ge=0, le=1)]
 
 #: Position and size of the window, and the layout of its panels.
 GEOMETRY = Setting("geometry", QByteArray(), QByteArray)
@@ -94,8 +93,3 @@ ITERATIONS_PLAYED = Setting("iterations_played", 10, _Positive)
 EVERY_ITERATION = Setting("every_iteration", False, bool)
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, bool)
-
-
-def overlay_position(key: str, default: tuple[float, float]) -> Setting[tuple[float, float]]:
-    """Return the setting of the position of an overlay over the view, as shares of the free width and height."""
-    return Setting(f"overlay/{key}", default, tuple[_Share, _Share], is_json=True)
