@@ -47,10 +47,6 @@ class Setting(Generic[T]):
         except (TypeError, ValueError, msgspec.MsgspecError):  # written by hand
             return self.default
 
-    def clear(self) -> None:
-        """Remove the stored value."""
-        QSettings().remove(self.key)
-
     def set(self, value: T) -> None:
         """Store a value."""
         QSettings().setValue(self.key, msgspec.json.encode(value, enc_hook=str).decode() if self.is_json else value)
@@ -74,7 +70,7 @@ def store_in(folder: str) -> None:
         QSettings.setPath(form, QSettings.Scope.UserScope, folder)
 
 
-#: Numbers from 1, and shares.
+#: Numbers from 1.
 _Positive = Annotated[int, Meta(ge=1)]
 
 #: Position and size of the window, and the layout of its panels.

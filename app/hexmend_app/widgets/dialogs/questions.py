@@ -64,6 +64,12 @@ def ask_list(parent: QWidget, stem: str) -> str:
     return _ask_to_save(parent, tr("Save list as"), f"{stem}-worst.csv", tr("Table (*.csv)"))
 
 
+def ask_comparison(parent: QWidget, stem: str) -> str:
+    """Ask for the file to save the table of compared methods to; "" if cancelled."""
+    kinds = tr("Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)")
+    return _ask_to_save(parent, tr("Save table as"), f"{stem}-comparison.csv", kinds)
+
+
 def ask_surface(parent: QWidget) -> str:
     """Ask for the file of a surface; "" if cancelled."""
     return _ask_to_open(

@@ -1,4 +1,4 @@
-"""Dialogs that export charts and tables."""
+"""Dialogs that export charts, and dialogs that ask for files."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,7 +11,7 @@ from hexmend_app.report.charts import ChartStyle
 from hexmend_app.report.histogram import Histogram, Series
 from hexmend_app.state.settings.settings import FOLDER
 from hexmend_app.widgets.dialogs import questions
-from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, TableDialog
+from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog
 
 HISTOGRAM = Histogram([Series("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")])
 WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", ChartStyle())
@@ -62,16 +62,6 @@ def test_replacing_an_existing_file_is_asked_once(dialog, qtbot, tmp_path, monke
         assert len(questions) == 2  # the file dialog has asked about a.svg itself
     assert dialog.target.path() == tmp_path / "a.svg"
     assert not dialog.isVisible()
-
-
-def test_the_preview_of_a_table_has_the_typed_names(qtbot):
-    dialog = TableDialog(lambda style: f"**{style.names.get('mend', 'mend')}**", *WORDS, "bridge", ["mend"])
-    qtbot.addWidget(dialog)
-    dialog.show()
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "mend")
-    dialog.names["mend"].setText("ours")
-    dialog.names["mend"].textEdited.emit("ours")
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "ours")
 
 
 def texts(dialog):
@@ -132,7 +122,7 @@ def test_the_first_dialog_starts_in_the_working_directory_of_a_terminal(
     monkeypatch.chdir(tmp_path / "working")
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
     monkeypatch.setattr("sys.stdin", None if terminal is None else SimpleNamespace(isatty=lambda: terminal))
-    FOLDER.clear()
+    FOLDER.set(FOLDER.default)
     questions.ask_mesh(None)
     assert Path(answers.begun[-1]) == tmp_path / place
 
