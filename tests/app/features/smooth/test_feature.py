@@ -550,7 +550,7 @@ def test_breakpoints_are_emitted_and_read_back(settings_form, qtbot, breakpoints
     assert settings_form.breakpoints() == breakpoints
 
 
-def test_another_mesh_removes_breakpoints_on_single_hexes_and_nodes(settings_form):
+def test_another_mesh_removes_breakpoints(settings_form):
     settings_form.set_breakpoints(Breakpoints(inverts=True, node=19, hex=9))
     settings_form.set_mesh(5, 6)
-    assert settings_form.breakpoints() == Breakpoints(inverts=True)
+    assert settings_form.breakpoints() == Breakpoints()

@@ -50,7 +50,7 @@ def at(window, number):
 
 
 def check(window, text):
-    box = next(b for b in window.features["smooth"].panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
+    box = named(window.features["smooth"].panel, QCheckBox, text)
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     assert box.isChecked()
 
