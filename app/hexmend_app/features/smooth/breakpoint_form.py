@@ -68,8 +68,8 @@ def _declarations(hexes: int, nodes: int) -> list[Parameter]:
         Parameter("inverts", bool, False, label="A hex inverts", help=_INVERTS),
         Parameter("q_min_falls", bool, False, label="Minimum q drops", help=_FALLS),
         number("node", nodes, "Node no.", _NODE),
-        Parameter("move", float, 0.1, 0, 9.999, label="Node moves more than", unit="edges", help=_MOVE),
+        Parameter("move", float, 0.1, 0, 9.999, label="Move above", unit="edges", help=_MOVE),
         number("hex", hexes, "Hex no.", _HEX),
-        Parameter("change", float, 0.1, 0, 9.999, label="q changes more than", help=_CHANGE),
+        Parameter("change", float, 0.1, 0, 9.999, label="Change of q above", help=_CHANGE),
         number("backtracks", 100, "Backtracks above", _BACKTRACKS),
     ]

@@ -129,9 +129,6 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
         assert alpha == trials[number - 1].alpha
         assert low < height < high
         assert (height > 0.8 * high) == (number < len(trials))
-    assert len(plot.numbers) > 1
-    plot.show_step(None)
-    assert plot.numbers == []
 
 
 @pytest.mark.parametrize("name", METHODS)
