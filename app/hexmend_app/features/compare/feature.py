@@ -20,7 +20,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_comparison
+from hexmend_app.widgets.dialogs.questions import ask_to_save
 from hexmend_app.widgets.wording import counted, duration
 
 #: Methods selected by default: the simplest, a fast one, an optimiser of the thesis, and the default method.
@@ -228,7 +228,9 @@ class FeatureCompare(Feature):
 
     def ask(self) -> None:
         """Ask for the file of the table, and write it."""
-        path = ask_comparison(self.host.dialog_parent, self.host.default_file_stem)
+        kinds = tr("Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)")
+        name = f"{self.host.default_file_stem}-comparison.csv"
+        path = ask_to_save(self.host.dialog_parent, tr("Save table as"), name, kinds)
         if path:
             self.save(path)
 

@@ -17,7 +17,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_session, ask_target, ask_unsaved, ask_visible
+from hexmend_app.widgets.dialogs.questions import Answer, ask_mesh_target, ask_rewrite, ask_session, ask_unsaved
 
 
 class FeatureSave(Feature):
@@ -84,21 +84,20 @@ class FeatureSave(Feature):
         text = tr("{file} is being saved. If you close now, the file may be incomplete.", file=saver.path.name)
         return self.host.wait_until(text, lambda: not saver.busy, tr("Close anyway"))
 
-    @property
-    def _suffix(self) -> str:
-        """Suffix of the file of the mesh."""
-        source = self.session.document.path
-        return source.suffix if source is not None else ".vtu"
+    def _ask_path(self, title: str, purpose: str) -> str:
+        """Ask for a path for a mesh, with the purpose in the proposed name, and the suffix of the open file."""
+        source, stem = self.session.document.path, f"{self.host.default_file_stem}-{purpose}"
+        return ask_mesh_target(self.host.dialog_parent, title, stem, source.suffix if source is not None else ".vtu")
 
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
-        path = ask_target(self.host.dialog_parent, self.host.default_file_stem, self._suffix)
+        path = self._ask_path(tr("Save mesh as"), "smoothed")
         if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
             self.session.commands.save_in_background(path, rewrite)
 
     def ask_visible(self) -> None:
         """Ask for a path and save the hexes that the view shows."""
-        path = ask_visible(self.host.dialog_parent, self.host.default_file_stem, self._suffix)
+        path = self._ask_path(tr("Save visible hexes as"), "visible")
         if path:
             self.save_visible(Path(path))
 
@@ -128,8 +127,10 @@ class FeatureSave(Feature):
 
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
-        ask = ask_session if self._in_session else ask_target
-        path = ask(self.host.dialog_parent, self.host.default_file_stem)
+        if self._in_session:
+            path = ask_session(self.host.dialog_parent, self.host.default_file_stem)
+        else:
+            path = self._ask_path(tr("Save mesh as"), "smoothed")
         return bool(path) and self.save_and_wait(path)
 
     def _on_began(self, saving: SaveTask) -> None:
