@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QToolButton
+from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QStyle, QStyleOptionSlider, QToolButton
 
 from hexmend import METHODS, Outcome, Step, StoppingCriteria
 from hexmend_app.features.timeline.run_bar import RunBar
@@ -33,7 +33,11 @@ def slider(window):
 def slider_place(window, number):
     """Return the position of a number on the slider."""
     window.refresh()
-    return QPoint(slider(window).place(number), slider(window).height() // 2)
+    track, option = slider(window), QStyleOptionSlider()
+    track.initStyleOption(option)
+    option.sliderPosition = number
+    parts = QStyle.ComplexControl.CC_Slider, option, QStyle.SubControl.SC_SliderHandle
+    return track.style().subControlRect(*parts, track).center()
 
 
 def go(window, qtbot, number):
