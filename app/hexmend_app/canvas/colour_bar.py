@@ -99,7 +99,7 @@ class ColourBar(QFrame):
         if colouring.names:
             help = tr(
                 "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; "
-                "both are outlined. Drag the legend to move it; double-click it to reset its position."
+                "both are outlined."
             )
             set_help(self, tr("Legend of materials"), help)
             self.setAccessibleDescription(tr("Materials: {names}", names=", ".join(colouring.names)))
