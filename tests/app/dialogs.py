@@ -9,7 +9,7 @@ from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries
 from hexmend_app.shell.window import Window
-from hexmend_app.widgets.dialogs.waiting import WaitingDialog
+from hexmend_app.widgets.dialogs.waiting import waiting_dialog
 
 
 def _pad(window: Window) -> QDialog:
@@ -29,5 +29,5 @@ DIALOGS: dict[str, Callable[[Window], QDialog]] = {
     "pad": _pad,
     "keys": lambda window: KeysPage(window.menus.declared(), window),
     "palette": _palette,
-    "waiting": lambda window: WaitingDialog("The file is being saved.", lambda: False, "Close anyway", window),
+    "waiting": lambda window: waiting_dialog(window, "The file is being saved.", lambda: False, "Close anyway"),
 }

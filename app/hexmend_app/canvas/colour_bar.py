@@ -99,7 +99,7 @@ class ColourBar(QFrame):
         if colouring.names:
             help = tr(
                 "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; "
-                "both are outlined. Drag the legend to move it; double-click it to reset its position."
+                "both are outlined."
             )
             set_help(self, tr("Legend of materials"), help)
             self.setAccessibleDescription(tr("Materials: {names}", names=", ".join(colouring.names)))
@@ -112,8 +112,7 @@ class ColourBar(QFrame):
             tr(
                 "Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest "
                 "end. Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0; those that are "
-                "invalid inside have a negative Jacobian between positive corners. Both are outlined. Drag the bar to "
-                "move it; double-click it to reset its position.",
+                "invalid inside have a negative Jacobian between positive corners. Both are outlined.",
                 label=label,
                 low=low,
                 high=high,

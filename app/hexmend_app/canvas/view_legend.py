@@ -20,8 +20,7 @@ _MAX_SHARE = 0.3
 class ViewLegend:
     """Shows the colours of the views in the colour bar, and numbers in the captions of several views.
 
-    The colour bar floats over a single view, where the user can drag it. To the right of several views side by side it
-    has a strip of its own.
+    The colour bar floats over a single view. To the right of several views side by side it has a strip of its own.
 
     Parameters
     ----------
@@ -39,7 +38,7 @@ class ViewLegend:
     def __init__(self, over: QWidget, panes: Panes, frame: ViewFrame):
         self._over, self._panes, self._frame = over, panes, frame
         self.colour_bar = ColourBar()
-        self._overlay = Overlay(self.colour_bar, over, (1.0, 0.5), key="colour_bar")
+        Overlay(self.colour_bar, over, (1.0, 0.5))
 
     def show_colours(self) -> None:
         """Show the colours of the views."""
@@ -62,7 +61,6 @@ class ViewLegend:
         width = self.colour_bar.sizeHint().width() + 2 * MARGIN
         several = len(self._panes.all) > 1 and self._panes.wipe is None and not self.colour_bar.isHidden()
         width = width if several and width < _MAX_SHARE * self._over.width() else 0
-        self._overlay.lock_to_default(width > 0)
         self._frame.set_legend_width(width)
         self._panes.reserve_legend(round(width * self._over.devicePixelRatioF()))
 

@@ -91,7 +91,7 @@ def _program_actions(window: Any, panels: Sequence[Panel]) -> list[Action]:
             menu="Help",
             keys="Ctrl+Shift+P",
             icon="magnify",
-            help=tr("Find a command, panel, method, metric or setting by name."),
+            help=tr("Find a command, panel, method or metric by name."),
             needs_mesh=False,
             handle=lambda: _show_palette(window, panels),
         ),

@@ -90,12 +90,11 @@ class MessageBar(QFrame):
         """Show an error until it is dismissed; Copy adds `report`, which is for developers."""
         self._add(_Message("error", title, text, report=report))
 
-    def show_warning(self, title: str, text: str = "") -> None:
-        """Show a warning until it is dismissed."""
-        self._add(_Message("warning", title, text))
+    def show_warning(self, title: str, text: str = "", choices: Choices = ()) -> None:
+        """Show a warning until it is dismissed.
 
-    def show_offer(self, title: str, text: str, choices: Choices) -> None:
-        """Show a warning with a button for each choice (text, function), which dismisses it and calls the function."""
+        It has a button for each choice (text, function), which dismisses it and calls the function.
+        """
         self._add(_Message("warning", title, text, choices))
 
     def show_info(self, text: str, timeout_ms: int = 6000) -> None:
@@ -103,7 +102,7 @@ class MessageBar(QFrame):
         self._add(_Message("info", text, "", timeout_ms=timeout_ms))
 
     def show_result(self, title: str, text: str, choices: Choices, timeout_ms: int = 12_000) -> None:
-        """Show a result for `timeout_ms` milliseconds with a button for each choice, as `show_offer`."""
+        """Show a result for `timeout_ms` milliseconds with a button for each choice, as `show_warning`."""
         self._add(_Message("info", title, text, choices, timeout_ms))
 
     def show_card(self, title: str, text: str, choices: Choices, timeout_ms: int) -> None:

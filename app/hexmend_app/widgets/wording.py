@@ -34,38 +34,6 @@ def label_of(parameter: Parameter) -> str:
     return tr(parameter.label or name_in_words(parameter.name))
 
 
-def range_of(parameter: Parameter) -> str:
-    """Return the values that a parameter admits, in the language of the program.
-
-    >>> range_of(Parameter("rho", float, 0.5, 0, 1, None, "", "", automatic="auto"))
-    'A number from 0 to 1, or auto'
-    """
-    if parameter.choices is not None:
-        return tr("One of {choices}", choices=", ".join(parameter.choices))
-    if parameter.type is bool:
-        return tr("True or false")
-    if parameter.type is str:
-        other = tr("names of sets with commas between them") if parameter.sets else tr("another text")
-        return _joined(list(parameter.suggestions), other) if parameter.suggestions else tr("A text")
-    kind = tr("A whole number") if parameter.type is int else tr("A number")
-    low, high = parameter.low, parameter.high
-    if low is not None and high is not None:
-        kind = tr("{kind} from {low:g} to {high:g}", kind=kind, low=low, high=high)
-    elif low is not None:
-        kind = tr("{kind} of at least {low:g}", kind=kind, low=low)
-    elif high is not None:
-        kind = tr("{kind} of at most {high:g}", kind=kind, high=high)
-    others = [word for word in (parameter.automatic, parameter.no_limit) if word]
-    if parameter.percent_of:
-        others.insert(0, tr("a percentage such as 0.5% of the {length}", length=tr(parameter.percent_of)))
-    return _joined([kind, *others[:-1]], others[-1]) if others else kind
-
-
-def _joined(texts: list[str], last: str) -> str:
-    texts_before = ", ".join(texts)
-    return tr("{texts}, or {last}", texts=texts_before[:1].upper() + texts_before[1:], last=last)
-
-
 def short_number(value: float) -> str:
     """Return the shortest text that is parsed as `value`.
 

@@ -1,4 +1,4 @@
-"""Charts and tables, saved through the dialogs that name what is in them."""
+"""Charts, saved through the dialogs that name what is in them."""
 
 import csv
 
@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel
 
 from hexmend import METHODS, StoppingCriteria
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.widgets.dialogs.export_dialog import ExportDialog
+from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog
 from tests.app.driving import phase
 
 pytestmark = pytest.mark.slow
@@ -19,12 +19,10 @@ SHORT = StoppingCriteria(max_iterations=3)
 
 @pytest.fixture
 def worked(window, qtbot):
-    """A window in which a method has run, and methods have been compared."""
+    """A window in which a method has run."""
     window.session.run.start(METHODS["laplacian"](), SHORT)
     qtbot.waitUntil(phase(window, Phase.FINISHED))
-    window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], SHORT)
-    qtbot.waitUntil(lambda: not window.session.comparison.busy)
-    for panel in ("histogram", "convergence", "compare"):
+    for panel in ("histogram", "convergence"):
         window.show_panel(panel)
         window.refresh()
     return window
@@ -35,7 +33,7 @@ def answer(window, feature, path, title, names, **style):
     said = []
 
     def fill():
-        dialog = next(one for one in window.findChildren(ExportDialog) if one.isVisible())
+        dialog = next(one for one in window.findChildren(ChartDialog) if one.isVisible())
         try:
             dialog.target.line.setText(str(path))
             dialog.title.setText(title)
@@ -55,7 +53,7 @@ def answer(window, feature, path, title, names, **style):
 
 
 def test_what_is_named_in_the_dialog_is_named_so_in_the_table(worked, tmp_path):
-    for feature, own in (("histogram", "now"), ("convergence", METHODS["laplacian"].title), ("compare", "getme")):
+    for feature, own in (("histogram", "now"), ("convergence", METHODS["laplacian"].title)):
         answer(worked, feature, tmp_path / "table.csv", "", {own: "what I did"})
         with (tmp_path / "table.csv").open(newline="") as file:
             cells = [cell for row in csv.reader(file) for cell in row]
@@ -70,8 +68,3 @@ def test_figures_are_as_wide_as_was_asked_and_the_next_ones_too(worked, tmp_path
             assert picture.width == 300
         answer(worked, feature, tmp_path / "b.png", "title", {})
         assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
-
-
-def test_two_methods_of_one_name_are_refused_before_anything_is_written(worked, tmp_path):
-    assert "called 'laplacian'" in answer(worked, "compare", tmp_path / "table.md", "", {"getme": "laplacian"})
-    assert not list(tmp_path.iterdir())

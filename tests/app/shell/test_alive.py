@@ -5,13 +5,12 @@ import threading
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QApplication, QDialogButtonBox
+from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox, QMessageBox
 
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, gallery, io
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks import mesh_change, mesh_saver
 from hexmend_app.state.tasks.task import running
-from hexmend_app.widgets.dialogs.waiting import WaitingDialog
 from tests.app.driving import key, open_and_wait, open_mesh, phase, smooth, turn
 from tests.patience import PATIENCE
 
@@ -98,14 +97,15 @@ def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate
 
 @pytest.mark.slow
 @pytest.mark.parametrize("answer", ["wait", "do not wait", "cancel"])
-def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, answer):
+def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, monkeypatch, answer):
+    monkeypatch.setattr(QMessageBox, "exec", QDialog.exec)  # other tests answer at once
     session, writing = window.session, gate(mesh_saver, "write_as_given")
     session.commands.save_in_background(tmp_path / "out.vtu")
     qtbot.waitUntil(writing.reached.is_set)
 
     def press():
         dialog = QApplication.activeModalWidget()
-        if not isinstance(dialog, WaitingDialog):
+        if not isinstance(dialog, QMessageBox):
             return
         asking.stop()
         roles = QDialogButtonBox.ButtonRole

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
-from hexmend_app.features.compare.comparison_table import KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.features.compare.comparison_table import KEYS, METHOD, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
@@ -90,7 +90,6 @@ class ComparePanel(QWidget):
         table.setSortingEnabled(True)
         table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         table.selectionModel().selectionChanged.connect(self._enable)
-        table.doubleClicked.connect(self._toggle)
         return table
 
     def _lay_out(self) -> None:
@@ -145,13 +144,6 @@ class ComparePanel(QWidget):
         """Return the name of the selected row, "" if none is."""
         rows = self._table.selectionModel().selectedRows()
         return self.model.rows[rows[0].row()].name if rows else ""
-
-    def _toggle(self, index: QModelIndex) -> None:
-        if index.column() != METHOD:
-            view = self.model.index(index.row(), VIEW)
-            if self.model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
-                entry = self.model.rows[index.row()]
-                self.model.view_toggled.emit(entry.name, not entry.shown)
 
     def _enable(self) -> None:
         model, name = self.model, self._selected()

@@ -9,26 +9,22 @@ from typing import Any
 
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective, regressions
-from hexmend.report.comparison import LINES, record_table, write_comparison
-from hexmend.report.markdown import markdown
+from hexmend.report.comparison import LINES, write_comparison
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
-from hexmend_app.report.charts import ChartStyle
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
+from hexmend_app.widgets.dialogs.questions import ask_to_save
 from hexmend_app.widgets.wording import counted, duration
 
 #: Methods selected by default: the simplest, a fast one, an optimiser of the thesis, and the default method.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
-
-_KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)"
 
 
 class FeatureCompare(Feature):
@@ -41,7 +37,6 @@ class FeatureCompare(Feature):
         session = self.session
         self._comparison, self._views = session.comparison, session.side_views
         self._seen = ChangeTracker()
-        self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
         panel.model.view_toggled.connect(self._toggle)
         panel.model.ticked.connect(host.refresh_soon)
@@ -232,31 +227,18 @@ class FeatureCompare(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask for the names and the file of the table, and write it."""
-        if chosen := answer(self.dialog()):
-            path, self._style = chosen
-            self.save(path, self._style)
+        """Ask for the file of the table, and write it."""
+        kinds = tr("Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)")
+        name = f"{self.host.default_file_stem}-comparison.csv"
+        path = ask_to_save(self.host.dialog_parent, tr("Save table as"), name, kinds)
+        if path:
+            self.save(path)
 
-    def dialog(self) -> TableDialog:
-        """Return the dialog that saves the table, with the names used last."""
-        record = self._comparison.to_data().record()
-        names = ["initial", *(row["method"] for row in record["rows"])]
-        file_name = f"{self.host.default_file_stem}-comparison.csv"
-
-        def text(style: ChartStyle) -> str:
-            return markdown(record_table(record, style.names, style.title))
-
-        title = record_table(record).title
-        return TableDialog(
-            text, tr("the table"), file_name, tr(_KINDS), self._style, title, names, self.host.dialog_parent
-        )
-
-    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
+    def save(self, path: str | Path) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
-        names, title = (None, None) if style is None else (style.names, style.title)
         return self.host.try_and_report(
             tr("Table not saved"),
-            lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
+            lambda: write_comparison(Path(path), self._comparison.to_data().record()),
             tr("Table of {count} saved to {path}", count=counted(len(self._comparison.results), "method"), path=path),
         )
 

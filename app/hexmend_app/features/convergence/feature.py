@@ -18,7 +18,7 @@ from hexmend_app.report.convergence import Convergence
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
+from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Values of all runs (*.csv)"
 

@@ -18,7 +18,7 @@ from hexmend_app.picture.named_cameras import merged
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
+from hexmend_app.widgets.dialogs.questions import ask_to_open, ask_to_save
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.inputs.key_form import KeyForm
 
@@ -98,8 +98,11 @@ class PictureSettings(ExportSettings):
         load, save = QPushButton(tr("Load scene…")), QPushButton(tr("Save scene…"))
         set_help(load, tr("Load scene…"), tr("Load these settings from a scene file."))
         set_help(save, tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
-        load.clicked.connect(lambda: self.load(ask_scene(self)))
-        save.clicked.connect(lambda: self.save_scene(ask_scene_target(self)))
+        kind, title = tr("Scene (*.toml)"), tr("Save scene as")
+        load.clicked.connect(
+            lambda: self.load(ask_to_open(self, tr("Load scene"), tr("Scenes (*.toml);;All files (*)")))
+        )
+        save.clicked.connect(lambda: self.save_scene(ask_to_save(self, title, "scene.toml", kind)))
         column.addLayout(fill(QHBoxLayout(), load, save, None))
         column.addStretch()
         labels = [label for label in self.findChildren(QLabel) if label.buddy() is not None]

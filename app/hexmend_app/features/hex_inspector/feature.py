@@ -14,7 +14,7 @@ from hexmend_app.features.hex_inspector.worst_model import write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_list
+from hexmend_app.widgets.dialogs.questions import ask_to_save
 from hexmend_app.widgets.wording import counted
 
 if TYPE_CHECKING:
@@ -260,7 +260,8 @@ class FeatureHexInspector(Feature):
 
     def ask(self) -> None:
         """Ask for a file and write the list of the worst hexes to it."""
-        path = ask_list(self.host.dialog_parent, self.host.default_file_stem)
+        name = f"{self.host.default_file_stem}-worst.csv"
+        path = ask_to_save(self.host.dialog_parent, tr("Save list as"), name, tr("Table (*.csv)"))
         if path:
             self.save(path)
 

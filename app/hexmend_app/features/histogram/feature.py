@@ -23,7 +23,7 @@ from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.mesh.snapshots import Snapshot
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
+from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 

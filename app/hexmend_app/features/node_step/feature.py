@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QTimer
 
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.visibility import Isolate
@@ -42,7 +42,6 @@ class FeatureNodeStep(Feature):
         self._task, self._node_sweep, self._view = session.node_step_task, session.node_sweep, session.view
         self._request: tuple | None = None
         self._shown: NodeStep | None = None
-        self._isolation: Isolate | None = None
         panel = self.panel = NodePanel()
         self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
         self._computing_timer.timeout.connect(
@@ -50,7 +49,7 @@ class FeatureNodeStep(Feature):
         )
         session.node_step_task.found.connect(self._computing_timer.stop)
         panel.nodes.followed.connect(lambda node: self._selection.choose(self._selection.hex, node))
-        panel.patch_box.toggled.connect(self._on_patch_toggled)
+        panel.isolate_button.clicked.connect(self._isolate_patch)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that explain a node and run a sweep node by node."""
@@ -84,10 +83,6 @@ class FeatureNodeStep(Feature):
                 ),
             )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the isolation of the patch of the node."""
-        return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
-
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
@@ -111,9 +106,6 @@ class FeatureNodeStep(Feature):
         """Show the step of the selected node, or the reason why it has none."""
         sweep = self._node_sweep.sweep
         self.panel.set_sweep(*((sweep.done, sweep.nodes.size) if sweep else ()))
-        if self._view.look.show.isolate != self._isolation:
-            self._isolation = None
-            self.panel.set_patch(False)
         if not self.panel.isVisible():
             self._draw(None)
             return
@@ -158,8 +150,6 @@ class FeatureNodeStep(Feature):
             self._cancel_request()
         self.panel.show_step(step, tr(METHODS[step.method].title), done)
         self._draw(step)
-        if self.panel.patch_alone and self._isolation != _isolation(step):
-            self._isolate(step)
 
     def _draw(self, step: NodeStep | None) -> None:
         if step is not self._shown:
@@ -191,22 +181,11 @@ class FeatureNodeStep(Feature):
             chosen.choose(*hex_and_node)
             chosen.visit(hex_and_node[0])
 
-    def _on_patch_toggled(self, on: bool) -> None:
-        if not on:
-            self._view.end_isolation()
-        elif self._shown is not None:
-            self._isolate(self._shown)
-
-    def _take_patch(self, on: bool) -> None:
-        """Restore from a session file whether the isolated hexes are the node's patch."""
-        self._isolation = self._view.look.show.isolate if on else None
-        self.panel.set_patch(on)
-
-    def _isolate(self, step: NodeStep) -> None:
-        self._isolation = _isolation(step)
-        # A range and peeled layers could hide hexes of the patch.
-        self._view.change(show={"isolate": self._isolation, "quality": None, "peel": 0})
-        self._selection.visit(*step.hexes.tolist())
+    def _isolate_patch(self) -> None:
+        """Show only the hexes of the node, none of which a range or peeled layers may hide."""
+        hexes = self._shown.hexes.tolist()
+        self._view.change(show={"isolate": Isolate(tuple(hexes), 0), "quality": None, "peel": 0})
+        self._selection.visit(*hexes)
 
     # Sweep
 
@@ -227,7 +206,3 @@ class FeatureNodeStep(Feature):
 
     def _reason_for_no_sweep(self) -> str:
         return reason_for_no_sweep(self.session, self.session.run_setup.smoother)
-
-
-def _isolation(step: NodeStep) -> Isolate:
-    return Isolate(tuple(step.hexes.tolist()), 0)

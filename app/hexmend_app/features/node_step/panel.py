@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from html import escape
 
-from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
-    QCheckBox,
     QFrame,
     QHBoxLayout,
     QLabel,
+    QPushButton,
     QSizePolicy,
     QStackedLayout,
     QTextBrowser,
@@ -88,8 +88,10 @@ class NodePanel(QWidget):
             tr("Free nodes"),
             tr("Nodes of the selected hex that methods may move; click one to select it."),
         )
-        self.patch_box = QCheckBox(tr("Isolate patch"))
-        set_help(self.patch_box, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
+        self.isolate_button = QPushButton(tr("Isolate patch"))
+        set_help(
+            self.isolate_button, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again.")
+        )
         self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
@@ -116,7 +118,7 @@ class NodePanel(QWidget):
         page = QWidget()
         fill(QHBoxLayout(page), (self.plot, 1), (self._no_plot, 1), (self.figures, 1), margins=(0, 0, 0, 0))
         self._stack.addWidget(page)
-        foot = fill(QHBoxLayout(), self.patch_box, None, *self._buttons.values())
+        foot = fill(QHBoxLayout(), self.isolate_button, None, *self._buttons.values())
         fill(QVBoxLayout(self), head, (self._stack, 1), self._legend, self.nodes, foot, margins=(8, 4, 8, 4), spacing=4)
 
     def show_message(self, message: str, title: str = "") -> None:
@@ -126,6 +128,7 @@ class NodePanel(QWidget):
         self._message.setText(message)
         self._stack.setCurrentIndex(0)
         self._legend.hide()
+        self.isolate_button.setEnabled(False)
         self.plot.show_step(None)
 
     def show_step(self, step: NodeStep, method: str, done: bool) -> None:
@@ -152,6 +155,7 @@ class NodePanel(QWidget):
         self._edges["before"].setVisible(done and step.move > 0)
         self._edges["after"].setVisible(not done and step.move > 0)
         self._legend.show()
+        self.isolate_button.setEnabled(True)
         self._stack.setCurrentIndex(1)
 
     def set_nodes(self, nodes: Sequence[int] | None, selected: int | None = None) -> None:
@@ -170,16 +174,6 @@ class NodePanel(QWidget):
     def set_sweep(self, done: int = 0, total: int = 0) -> None:
         """Show the progress of the sweep."""
         self._progress.setText(tr("{done:,} of {total:,} steps", done=done, total=total) if done else "")
-
-    def set_patch(self, on: bool) -> None:
-        """Show whether the patch is isolated in the view, without emitting a signal."""
-        with QSignalBlocker(self.patch_box):
-            self.patch_box.setChecked(on)
-
-    @property
-    def patch_alone(self) -> bool:
-        """True if the hexes of the node are isolated in the view."""
-        return self.patch_box.isChecked()
 
 
 class NodeFigures(QTextBrowser):

@@ -9,35 +9,24 @@ import pyqtgraph as pg
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.state.node_step import NodeStep
-from hexmend_app.theme.palette import AMBER, MUTED, PANEL, SEARCH, TAKEN, TEXT, TRIED
+from hexmend_app.theme.palette import AMBER, PANEL, SEARCH, TAKEN, TEXT, TRIED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import on_theme_change, set_help, smaller
+from hexmend_app.theme.style import on_theme_change, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
 
 _HELP = (
-    "Change of the energy along the direction; α is the fraction of the direction. A trial step (numbered) is accepted "
+    "Change of the energy along the direction; α is the fraction of the direction. A trial step is accepted "
     "if it is below the dashed line, which falls with a small fraction of the slope (Armijo). Trials above the plot, "
     "including infinite ones, are drawn at its upper edge."
 )
 
 #: Margins of the plot above and below the curve, as fractions of the fall and of the height.
 _MARGIN_ABOVE, _MARGIN_BELOW = 1.2, 0.12
-#: Least distance between two numbers, as a fraction of the width.
-_NUMBER_SPACING = 0.045
-
-#: Positions of a number next to its dot, as anchors of pyqtgraph; the right is preferred, where no curve crosses it.
-_RIGHT, _ABOVE, _BELOW = (-0.35, 0.4), (0.5, 1.1), (0.5, -0.15)
 
 
 class NodePlot(QWidget):
-    """Plots the energy along the direction of one step.
-
-    Attributes
-    ----------
-    numbers : list of pg.TextItem
-        Numbers of the trials.
-    """
+    """Plots the energy along the direction of one step."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -49,9 +38,8 @@ class NodePlot(QWidget):
         self._plot.getAxis("left").setWidth(self.fontMetrics().horizontalAdvance("−00.00") + 26)
         self._plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 4)
         self._curve, self._bound = self._plot.plot(), self._plot.plot()
-        self._dots = pg.ScatterPlotItem()
+        self._dots = pg.ScatterPlotItem(hoverable=True, tip=_describe_dot)
         self._plot.addItem(self._dots)
-        self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
         set_help(self._plot, tr("Energy along the direction"), tr(_HELP))
         fill(QVBoxLayout(self), self._plot, margins=(0, 0, 0, 0))
@@ -60,9 +48,6 @@ class NodePlot(QWidget):
     def show_step(self, step: NodeStep | None) -> None:
         """Plot a step; None clears the plot."""
         self._step = step
-        for number in self.numbers:
-            self._plot.removeItem(number)
-        self.numbers.clear()
         if not self.drawn:
             return
         alpha, change = step.curve[:, 0], step.curve[:, 1] - step.energy
@@ -87,7 +72,6 @@ class NodePlot(QWidget):
 
     def _draw_dots(self, step: NodeStep, bottom: float, top: float, right: float) -> None:
         spots = [_spot(0.0, 0.0, TEXT, "o", 0)]
-        last_numbered = math.inf
         for number, trial in enumerate(step.trials, start=1):
             if trial.alpha > right:
                 continue
@@ -96,22 +80,11 @@ class NodePlot(QWidget):
             height = top - 0.04 * (top - bottom) if above_plot else change
             colour = TAKEN if trial.alpha == step.alpha else TRIED
             spots.append(_spot(trial.alpha, height, colour, "t1" if above_plot else "o", number))
-            if last_numbered - trial.alpha > _NUMBER_SPACING * right:
-                anchor = _BELOW if above_plot else _RIGHT if trial.alpha < 0.9 * right else _ABOVE
-                self._add_number(number, trial.alpha, height, anchor)
-                last_numbered = trial.alpha
         if not step.trials:
             spots.append(_spot(1.0, float(np.interp(1.0, *step.curve.T)) - step.energy, TRIED, "o", 0))
             if step.move > 0:
                 spots.append(_spot(step.alpha, step.energy_after - step.energy, TAKEN, "o", 0))
         self._dots.setData(spots)
-
-    def _add_number(self, number: int, x: float, y: float, anchor: tuple[float, float]) -> None:
-        text = pg.TextItem(str(number), color=str(MUTED), anchor=anchor)
-        text.setFont(smaller(self.font()))
-        text.setPos(x, y)
-        self._plot.addItem(text)
-        self.numbers.append(text)
 
 
 def extent(step: NodeStep) -> tuple[float, float]:
@@ -127,6 +100,12 @@ def extent(step: NodeStep) -> tuple[float, float]:
         visible = finite & (alpha <= alpha[-1] / 4)
     high = max(1.1 * float(np.max(changes, where=visible, initial=0.0)), -0.25 * low) or 1.0
     return low - _MARGIN_BELOW * (high - low), high
+
+
+def _describe_dot(x: float, y: float, data: int) -> str:
+    """Return the tooltip of a dot: the number of the trial from 1, or 0 for none, and its position."""
+    name = tr("Trial {number}: ", number=data) if data else ""
+    return f"{name}α = {x:.3g}, Δ {y:.3g}"
 
 
 def _spot(x: float, y: float, colour: object, symbol: str, number: int) -> dict:

@@ -163,7 +163,7 @@ class FeatureOpen(Feature):
 
     def _on_mesh_missing(self, missing: MissingMesh) -> None:
         self.host.busy.done("open")
-        self.host.messages.show_offer(
+        self.host.messages.show_warning(
             *missing_mesh_message(missing),
             ((tr("Locate mesh…"), lambda: self._locate(missing)), (tr("Dismiss"), lambda: None)),
         )

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import math
-
-from PySide6.QtWidgets import (
-    QDialog,
-    QDialogButtonBox,
-    QDoubleSpinBox,
-    QFormLayout,
-    QSpinBox,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import set_names
+from hexmend.parameters import Parameter
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
-from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import note, set_help
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import note
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import ComboBox
+from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
-#: Largest thickness, and the step of the box, in mean edge lengths.
-_MAX_THICKNESS, _STEP = 2.0, 0.05
+_WHERE = "Insert the layer under the whole boundary, under the faces of a set, or around hexes."
+_RINGS = "Number of rings of hexes that a layer around hexes encloses."
+_THICKNESS = "Thickness of the layer in mesh units. Automatic: best for the quality of the hexes."
+#: Largest thickness in mean edge lengths.
+_MAX_THICKNESS = 2.0
+_AUTOMATIC = "automatic"
+#: Minimum width in pixels.
+_WIDTH = 380
 
 
 class PadDialog(QDialog):
@@ -34,49 +31,45 @@ class PadDialog(QDialog):
     mesh : Mesh
     locked, inverted : int
         Number of its locked and inverted hexes.
+
+    Attributes
+    ----------
+    form : ParameterForm
     """
 
     def __init__(self, mesh: Mesh, locked: int, inverted: int, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(tr("Pad"))
-        self.where, self.rings, self.thickness = ComboBox(), QSpinBox(), QDoubleSpinBox()
-        self.where.addItem(tr("Whole boundary"), (None, None))
+        self._places: dict[str, tuple[str | None, str | None]] = {tr("Whole boundary"): (None, None)}
         if locked:
-            self.where.addItem(tr("Around the {count:,} locked hexes", count=locked), (None, "locked"))
+            self._places[tr("Around the {count:,} locked hexes", count=locked)] = None, "locked"
         if inverted:
-            self.where.addItem(tr("Around the {count:,} inverted hexes", count=inverted), (None, "inverted"))
-        for name in set_names(mesh):
-            self.where.addItem(tr("Set {name}", name=name), (name, None))
-        text = tr("Insert the layer under the whole boundary, under the faces of a set, or around hexes.")
-        set_help(self.where, tr("Where"), text)
-        self.rings.setRange(0, 20)
-        self.rings.setValue(1)
-        set_help(self.rings, tr("Rings"), tr("Number of rings of hexes that a layer around hexes encloses."))
-        edge = mesh.mean_edge_length
-        self.thickness.setDecimals(max(0, 3 - math.floor(math.log10(edge))) if edge > 0 else 3)
-        self.thickness.setRange(0.0, _MAX_THICKNESS * edge)
-        self.thickness.setSingleStep(_STEP * edge)
-        self.thickness.setSpecialValueText(tr("Automatic"))
-        text = tr("Thickness of the layer in mesh units. Automatic: best for the quality of the hexes.")
-        set_help(self.thickness, tr("Thickness"), text)
-        form = apply_spacing(QFormLayout())
-        form.addRow(tr("Where"), self.where)
-        form.addRow(tr("Rings"), self.rings)
-        form.addRow(tr("Thickness"), self.thickness)
+            self._places[tr("Around the {count:,} inverted hexes", count=inverted)] = None, "inverted"
+        self._places |= {tr("Set {name}", name=name): (name, None) for name in set_names(mesh)}
+        places, thickest = tuple(self._places), _MAX_THICKNESS * mesh.mean_edge_length
+        declarations = (
+            Parameter("where", str, places[0], choices=places, titles=places, help=_WHERE),
+            Parameter("rings", int, 1, 0, 20, help=_RINGS),
+            Parameter("thickness", float, _AUTOMATIC, 0, thickest, automatic=_AUTOMATIC, help=_THICKNESS),
+        )
+        self.form = ParameterForm(declarations, has_buttons=False)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         buttons.addButton(tr("Pad"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         text = tr("Insert a layer of new hexes under the boundary, then run Mend. The boundary does not change.")
-        fill(QVBoxLayout(self), note(text), form, buttons)
-        self.where.currentIndexChanged.connect(self._enable)
-        self._enable()
+        fill(QVBoxLayout(self), note(text), self.form, buttons)
+        self.setMinimumWidth(_WIDTH)
+
+    def accept(self) -> None:
+        """Close unless a value is invalid."""
+        if self.form.problems():
+            self.form.focus_problem()
+        else:
+            super().accept()
 
     def choice(self) -> PaddingChoice:
         """Return the selected options."""
-        name, around = self.where.currentData()
-        return PaddingChoice(name, around, self.rings.value(), self.thickness.value() or None)
-
-    def _enable(self) -> None:
-        """Enable the rings for layers around hexes."""
-        self.rings.setEnabled(self.where.currentData()[1] is not None)
+        values = self.form.values()
+        thickness = None if values["thickness"] == _AUTOMATIC else values["thickness"] or None
+        return PaddingChoice(*self._places[values["where"]], values["rings"], thickness)

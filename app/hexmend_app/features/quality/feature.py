@@ -52,7 +52,7 @@ class FeatureQuality(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Show the key figures in the view."""
-        Overlay(self.bar, canvas.interactor, (0.0, 1.0), key="key_figures")
+        Overlay(self.bar, canvas.interactor, (0.0, 1.0))
         self._show_bar()
 
     def refresh(self) -> None:

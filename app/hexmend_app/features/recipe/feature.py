@@ -12,7 +12,7 @@ from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
+from hexmend_app.widgets.dialogs.questions import ask_to_open, ask_to_save
 
 
 class FeatureRecipe(Feature):
@@ -100,7 +100,7 @@ class FeatureRecipe(Feature):
 
     def ask_load(self) -> None:
         """Ask for a file and load its recipe."""
-        path = ask_recipe(self.host.dialog_parent)
+        path = ask_to_open(self.host.dialog_parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)"))
         if path:
             self.load(path)
 
@@ -111,7 +111,7 @@ class FeatureRecipe(Feature):
 
     def ask_save(self) -> None:
         """Ask for a file and save the recipe."""
-        path = ask_recipe_target(self.host.dialog_parent)
+        path = ask_to_save(self.host.dialog_parent, tr("Save recipe as"), "recipe.toml", tr("Recipe (*.toml)"))
         if path:
             self.save(path)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 
@@ -19,27 +19,19 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.parameters import Parametrised, declared
 from hexmend.run.recipe import Recipe, Stage
 from hexmend_app.feature import ChangeTracker
 from hexmend_app.state.run.recipe_draft import RecipeDraft
+from hexmend_app.state.run.run_settings import settings_text
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import icon, labelled, note, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.wording import label_of, short_number
 
 _EMPTY = (
     "No stages. Select a method above and add it, or load a recipe. Each stage starts from the best result of the "
     "stage before it."
 )
-#: Texts of limits.
-_LIMITS = {
-    "max_iterations": "at most {value} iterations",
-    "tolerance": "tolerance {value}",
-    "max_seconds": "at most {value} s",
-    "keep_last": "keep the last iteration",
-}
 #: Maximum number of stages visible without scrolling.
 _VISIBLE = 4
 
@@ -209,19 +201,11 @@ class RecipePanel(QWidget):
 
 
 def stage_title(stage: Stage) -> str:
-    """Return the title of a stage with its changed values."""
-    values = [*_changed_values(stage.smoother, {}), *_changed_values(stage.stop, _LIMITS)]
-    method = tr(stage.smoother.title)
-    return f"{method} ({', '.join(values)})" if values else method
+    """Return the title of a stage with its changed values.
 
-
-def _changed_values(part: Parametrised, templates: Mapping[str, str]) -> Iterator[str]:
-    """Yield the texts of values that differ from the defaults, by templates or names."""
-    for parameter in declared(part):
-        value = getattr(part, parameter.name)
-        if value != parameter.default:
-            text = short_number(value) if isinstance(value, float) else str(value)
-            if isinstance(value, bool):
-                text = "on" if value else "off"
-            template = templates.get(parameter.name)
-            yield tr(template, value=text) if template else f"{label_of(parameter)} {text}"
+    >>> from hexmend import METHODS, StoppingCriteria
+    >>> stage_title(Stage(METHODS["local-sd"](p=4), StoppingCriteria(max_iterations=3)))
+    'Local steepest descent (p=4, max_iterations=3)'
+    """
+    method, values = tr(stage.smoother.title), settings_text(stage.smoother, stage.stop)
+    return f"{method} ({values})" if values else method

@@ -17,7 +17,7 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_script
+from hexmend_app.widgets.dialogs.questions import ask_to_save
 
 
 class FeatureReproduce(Feature):
@@ -95,7 +95,8 @@ class FeatureReproduce(Feature):
 
     def ask(self) -> None:
         """Ask for a path and save the script."""
-        path = ask_script(self.host.dialog_parent, self.host.default_file_stem)
+        name = f"{self.host.default_file_stem}.py"
+        path = ask_to_save(self.host.dialog_parent, tr("Save script as"), name, tr("Python script (*.py)"))
         if path:
             self.save(path)
 

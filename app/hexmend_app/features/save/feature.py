@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
+from hexmend.doctor.removal import extract_hexes
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
 from hexmend.io.storage.file_progress import FileProgress
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.save.visible_saver import VisibleSaver, warn_of_omitted
 from hexmend_app.formats.session import SUFFIX
+from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import Answer, ask_rewrite, ask_session, ask_target, ask_unsaved
+from hexmend_app.widgets.dialogs.questions import Answer, ask_mesh_target, ask_rewrite, ask_session, ask_unsaved
 
 
 class FeatureSave(Feature):
@@ -22,7 +25,6 @@ class FeatureSave(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self.visible = VisibleSaver(host)
         saver = self.session.saver
         saver.began.connect(self._on_began)
         saver.progressed.connect(self._on_progressed)
@@ -50,14 +52,10 @@ class FeatureSave(Feature):
                 menu="File",
                 section=1,
                 help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
-                handle=lambda: self.visible.ask(self.canvas.viewport),
+                handle=self.ask_visible,
                 enabled=self._can_save_visible,
             ),
         )
-
-    def close(self) -> None:
-        """Wait for no file any more."""
-        self.visible.close()
 
     def confirm_close(self) -> bool:
         """Wait for a save in progress and ask about unsaved changes; return True if leaving is allowed."""
@@ -86,18 +84,36 @@ class FeatureSave(Feature):
         text = tr("{file} is being saved. If you close now, the file may be incomplete.", file=saver.path.name)
         return self.host.wait_until(text, lambda: not saver.busy, tr("Close anyway"))
 
+    def _ask_path(self, title: str, purpose: str) -> str:
+        """Ask for a path for a mesh, with the purpose in the proposed name, and the suffix of the open file."""
+        source, stem = self.session.document.path, f"{self.host.default_file_stem}-{purpose}"
+        return ask_mesh_target(self.host.dialog_parent, title, stem, source.suffix if source is not None else ".vtu")
+
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
-        source = self.session.document.path
-        path = ask_target(
-            self.host.dialog_parent, self.host.default_file_stem, source.suffix if source is not None else ".vtu"
-        )
+        path = self._ask_path(tr("Save mesh as"), "smoothed")
         if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
             self.session.commands.save_in_background(path, rewrite)
 
+    def ask_visible(self) -> None:
+        """Ask for a path and save the hexes that the view shows."""
+        path = self._ask_path(tr("Save visible hexes as"), "visible")
+        if path:
+            self.save_visible(Path(path))
+
+    def save_visible(self, path: Path) -> None:
+        """Save the hexes that the view shows in the background; those that a smooth cut shows in part, as a whole."""
+        mesh, shown = self.session.document.now.mesh, self.canvas.viewport.remaining_after_cut()
+        shown = np.ones(mesh.n_hexes, bool) if shown is None else shown
+        if shown.any():
+            part = State.of(extract_hexes(mesh, shown))
+            self.session.saver.save(SaveTask(path, part, part, None, rewrite=True))
+        else:
+            self.host.messages.show_error(tr("No hex is visible"), tr("Show the hexes that are to be saved first."))
+
     def _can_save_visible(self) -> bool:
         drawn = self.canvas is not None and self.canvas.viewport.frame is not None
-        return drawn and self.session.run.phase is not Phase.RUNNING and not self.visible.going_on
+        return drawn and self.session.run.phase is not Phase.RUNNING
 
     def _ask_rewrite(self, path: Path) -> bool | None:
         """Ask whether a file is written anew, if its coordinates could be replaced instead; None if cancelled."""
@@ -111,8 +127,10 @@ class FeatureSave(Feature):
 
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
-        ask = ask_session if self._in_session else ask_target
-        path = ask(self.host.dialog_parent, self.host.default_file_stem)
+        if self._in_session:
+            path = ask_session(self.host.dialog_parent, self.host.default_file_stem)
+        else:
+            path = self._ask_path(tr("Save mesh as"), "smoothed")
         return bool(path) and self.save_and_wait(path)
 
     def _on_began(self, saving: SaveTask) -> None:
@@ -130,7 +148,13 @@ class FeatureSave(Feature):
         if saving.written is not None:
             for note in saving.written.notes:
                 self.host.messages.show_warning(tr("Saved with a note"), note)
-        warn_of_omitted(self.host, saving.path, saving.omitted)
+        if saving.omitted:
+            remedy = tr(
+                "A {suffix} file cannot store {count}. Save as .vtu to store more.",
+                suffix=saving.path.suffix,
+                count=", ".join(saving.omitted),
+            )
+            self.host.messages.show_warning(tr("Some data was not saved"), remedy)
 
     def _saved_words(self, saving: SaveTask) -> str:
         """Tell whether the file is written anew, or keeps all but its coordinates."""

@@ -80,7 +80,7 @@ class FeatureSession(Feature):
 
     def _offer(self, crashed: RecoveredSession) -> None:
         buttons = ((tr("Recover"), lambda: self._recover(crashed)), (tr("Discard"), lambda: self._discard(crashed)))
-        self.host.messages.show_offer(*recovery_offer(crashed), buttons)
+        self.host.messages.show_warning(*recovery_offer(crashed), buttons)
 
     def _recover(self, crashed: RecoveredSession) -> None:
         if crashed in self.recovery.recoverable and self.host.confirm_close():

@@ -158,11 +158,8 @@ class FeatureSmooth(Feature):
         """Show the progress of the run, or the run that produced the displayed mesh."""
         session, phase = self.session, self._smoothing.phase
         self.panel.setEnabled(self._ready())
-        selection, form = session.selection, self.panel.breakpoint_form
-        if self._seen.changed("selection", selection.hex, selection.node):
-            form.set_selected(selection.hex, selection.node)
         if session.document.is_open and self._seen.changed("mesh", session.document.start):
-            breakpoints = self._smoothing.breakpoints
+            breakpoints, form = self._smoothing.breakpoints, self.panel.breakpoint_form
             form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
             form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
         if session.document.is_open:

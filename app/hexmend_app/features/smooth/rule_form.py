@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from html import escape
 from itertools import pairwise
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFocusEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.named_sets import set_names
-from hexmend.mesh.rules.periodic_sets import match_periodic
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.run.interface_messages import describe_interfaces
 from hexmend.terminal_text import printable
 from hexmend_app.features.smooth.set_rules import (
-    Choice,
-    choice_of,
+    Rule,
     choices_of,
+    describe_rules,
     describe_set,
     rules_of_set,
     with_set_rules,
@@ -60,7 +58,7 @@ class RuleForm(QWidget):
         self._mesh: Mesh | None = None
         self._rules = MotionRules()
         self._names: tuple[str, ...] = ()
-        self._rows: dict[str, tuple[QLabel, _RuleBox]] = {}
+        self._rows: dict[str, _RuleBox] = {}
         self.interfaces = Segmented(
             tr("Interfaces"), [(key, tr(text), tr(help)) for key, (text, help) in _INTERFACES.items()]
         )
@@ -133,8 +131,7 @@ class RuleForm(QWidget):
         matching.sort(key=lambda name: name not in self._rules.names)  # those with rules first
         for row, name in enumerate(matching[:_MOST]):
             self._rows[name] = self._add_row(row, name)
-        boxes = [box for _, box in self._rows.values()]
-        for before, box in pairwise([self._filter, *boxes]):
+        for before, box in pairwise([self._filter, *self._rows.values()]):
             self.setTabOrder(before, box)  # Qt adds new widgets at the end of the window's tab order
         self._filter.setVisible(len(self._names) > _MOST)
         self._list.setVisible(bool(self._rows))
@@ -142,16 +139,16 @@ class RuleForm(QWidget):
         show_text(self._more, tr("{count:,} more sets: filter them by name.", count=more) if more else "")
         self._show_choices()
 
-    def _add_row(self, row: int, name: str) -> tuple[QLabel, _RuleBox]:
-        label, box = ElidingLabel(), _RuleBox(lambda: self._choices(name))
+    def _add_row(self, row: int, name: str) -> _RuleBox:
+        label, box = ElidingLabel(), _RuleBox()
         label.setText(printable(name))
         label.setBuddy(box)
         label.setToolTip(f"<qt><b>{escape(name)}</b>: {escape(describe_set(self._mesh, name))}</qt>")
         set_help(box, tr("Rule of {name}", name=name), tr("Motion of the nodes of this set in a run."))
-        box.chosen.connect(lambda choice: self._choose(name, choice))
+        box.chosen.connect(lambda rules: self._choose(name, rules))
         self._grid.addWidget(label, row, 0)
         self._grid.addWidget(box, row, 1)
-        return label, box
+        return box
 
     def _refresh(self) -> None:
         materials = self._mesh.materials
@@ -163,25 +160,21 @@ class RuleForm(QWidget):
         self._show_choices()
 
     def _show_choices(self) -> None:
-        for name, (_, box) in self._rows.items():
-            box.show_choice(choice_of(rules_of_set(self._rules, name)))
-
-    def _choices(self, name: str) -> list[Choice]:
-        return choices_of(self._mesh, name, rules_of_set(self._rules, name))
+        for name, box in self._rows.items():
+            current = rules_of_set(self._rules, name)
+            box.show_choices(choices_of(self._mesh, name, current), current)
 
     def _on_interfaces(self, key: str) -> None:
         self._change(MotionRules.from_values({**self._rules.values(), "interfaces": key}))
 
-    def _choose(self, name: str, choice: Choice) -> None:
-        for key, other in choice.rules:
-            if key == "periodic" and choice.rules != rules_of_set(self._rules, name):
-                try:
-                    match_periodic(self._mesh, name, other)
-                except MeshError as error:
-                    self._show_choices()
-                    show_text(self._problem, tr("{error}.", error=str(error).rstrip(".")))
-                    return
-        self._change(with_set_rules(self._rules, name, choice.rules))
+    def _choose(self, name: str, chosen: tuple[Rule, ...]) -> None:
+        try:
+            with_rules(self._mesh, with_set_rules(MotionRules(), name, chosen))
+        except MeshError as error:
+            self._show_choices()
+            show_text(self._problem, tr("{error}.", error=str(error).rstrip(".")))
+        else:
+            self._change(with_set_rules(self._rules, name, chosen))
 
     def _change(self, rules: MotionRules) -> None:
         if rules != self._rules:
@@ -191,54 +184,31 @@ class RuleForm(QWidget):
 
 
 class _RuleBox(FocusedWheel, ComboBox):
-    """Combo box that finds its choices when it is opened or focused, as finding them takes time.
+    """Combo box of the rules that a set can have.
 
-    Parameters
-    ----------
-    choices : callable
-        Returns the choices.
+    Signals
+    -------
+    chosen(tuple of Rule)
     """
 
     chosen = Signal(object)
 
-    def __init__(self, choices: Callable[[], list[Choice]], parent: QWidget | None = None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._find, self._choices = choices, [choice_of(())]
+        self._choices: list[tuple[Rule, ...]] = []
         let_shrink(self, 8)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.activated.connect(lambda at: self.chosen.emit(self._choices[at]))
-        self._fill(self._choices, self._choices[0])
 
-    def show_choice(self, choice: Choice) -> None:
-        """Show a choice, without sending a signal."""
-        if choice.rules not in [one.rules for one in self._choices]:
-            self._choices = [choice]
-        self._fill(self._choices, choice)
-
-    def _fill(self, choices: list[Choice], current: Choice) -> None:
+    def show_choices(self, choices: list[tuple[Rule, ...]], current: tuple[Rule, ...]) -> None:
+        """Show the choices and the current one, without sending a signal."""
         self._choices = choices
         font = self.font()
-        font.setBold(bool(current.rules))
+        font.setBold(bool(current))
         self.setFont(font)
         with QSignalBlocker(self):
             self.clear()
-
-            for at, choice in enumerate(choices):
-                self.addItem(choice.text)
-                self.setItemData(at, choice.problem or choice.help, Qt.ItemDataRole.ToolTipRole)
-                self.model().item(at).setEnabled(not choice.problem)  # type: ignore[attr-defined]
-            self.setCurrentIndex(next(at for at, one in enumerate(choices) if one.rules == current.rules))
-
-    def _find_choices(self) -> None:
-        self._fill(self._find(), self._choices[self.currentIndex()])
-
-    def showPopup(self) -> None:
-        """Find the choices and show them."""
-        self._find_choices()
-        super().showPopup()
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Find the choices, which the arrow keys step through."""
-        if event.reason() is not Qt.FocusReason.PopupFocusReason:
-            self._find_choices()
-        super().focusInEvent(event)
+            for at, (text, help) in enumerate(map(describe_rules, choices)):
+                self.addItem(text)
+                self.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
+            self.setCurrentIndex(choices.index(current))

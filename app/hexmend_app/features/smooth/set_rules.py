@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
-
-from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
-from hexmend.mesh.rules.resolution import normal_of_set
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
@@ -23,19 +19,10 @@ _RULES = {
     "plane": ("In its plane", "Its nodes move in the plane in which they lie."),
 }
 _NO_RULE = ("No rule", "Its nodes move like those of the rest of the mesh.")
-_PERIODIC = "Its nodes and those of {name} move as one."
+_PERIODIC = ("Periodic: {name}", "Its nodes and those of {name} move as one.")
 
 #: Rule of a set: a field of `MotionRules` and, for a periodic pair, the name of the other set.
 Rule = tuple[str, str]
-
-
-class Choice(NamedTuple):
-    """Choice for a set: its rules, text, help, and the reason for which it is not available, or ""."""
-
-    rules: tuple[Rule, ...]
-    text: str
-    help: str
-    problem: str = ""
 
 
 def rules_of_set(rules: MotionRules, name: str) -> tuple[Rule, ...]:
@@ -67,35 +54,34 @@ def with_set_rules(rules: MotionRules, name: str, chosen: tuple[Rule, ...]) -> M
     return replace(rules, periodic=tuple(pairs), **sets)
 
 
-def choice_of(rules: tuple[Rule, ...]) -> Choice:
-    """Return the choice that shows the rules of a set."""
-    if not rules:
-        return Choice((), *map(tr, _NO_RULE))
-    texts, helps = [], []
-    for key, other in rules:
-        text, help = _RULES.get(key, ("Periodic: {name}", _PERIODIC))
-        texts.append(tr(text, name=other))
-        helps.append(tr(help, name=other))
-    return Choice(rules, ", ".join(texts), " ".join(helps))
+def describe_rules(rules: tuple[Rule, ...]) -> tuple[str, str]:
+    """Return the text and the help of the rules of a set.
 
-
-def choices_of(mesh: Mesh, name: str, rules: tuple[Rule, ...]) -> list[Choice]:
-    """Return the choices for a set of a mesh, with the present one.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    name : str
-    rules : tuple of Rule
-        Present rules of the set.
+    >>> describe_rules((("fix", ""), ("periodic", "b")))[0]
+    'Fixed, Periodic: b'
     """
-    if name not in set_names(mesh):
-        return [choice_of(())] + [choice_of(rules)] * bool(rules)
-    nodes = np.unique(nodes_in_set(mesh, name))
-    choices = [choice_of(())]
-    choices += [choice_of(((key, ""),))._replace(problem=_problem(mesh, name, nodes, key)) for key in _RULES]
-    choices += [choice_of((("periodic", other),)) for other in _partners(mesh, name, nodes.size)]
-    return choices if any(one.rules == rules for one in choices) else [*choices, choice_of(rules)]
+    if not rules:
+        text, help = _NO_RULE
+        return tr(text), tr(help)
+    described = [(_RULES.get(key, _PERIODIC), other) for key, other in rules]
+    texts, helps = zip(
+        *((tr(text, name=other), tr(help, name=other)) for (text, help), other in described), strict=True
+    )
+    return ", ".join(texts), " ".join(helps)
+
+
+def choices_of(mesh: Mesh, name: str, rules: tuple[Rule, ...]) -> list[tuple[Rule, ...]]:
+    """Return the rules that can be chosen for a set of a mesh, and its present `rules`.
+
+    Not all of them suit the mesh: `hexmend.mesh.rules.resolution.with_rules` tells.
+    """
+    choices: list[tuple[Rule, ...]] = [()]
+    names = set_names(mesh)
+    if name in names:
+        choices += [((key, ""),) for key in _RULES]
+        if name not in mesh.hex_sets:
+            choices += [(("periodic", other),) for other in names if other != name and other not in mesh.hex_sets]
+    return choices if rules in choices else [*choices, rules]
 
 
 def describe_set(mesh: Mesh, name: str) -> str:
@@ -108,33 +94,3 @@ def describe_set(mesh: Mesh, name: str) -> str:
         return tr("side set, {faces}", faces=counted(len(mesh.side_sets[name]), "face"))
     count = sum(len(cells.sets[name]) for cells in mesh.cells if name in cells.sets)
     return tr("set of {cells}", cells=counted(count, "other cell")) if count else tr("not a set of this mesh")
-
-
-def _problem(mesh: Mesh, name: str, nodes: np.ndarray, key: str) -> str:
-    """Return the reason for which a rule is not available for a set of nodes (k,), or ""."""
-    if not nodes.size:
-        return tr("The set is empty.")
-    if key == "free":
-        pinned = mesh.pinned is not None and mesh.pinned[nodes].any()
-        return "" if pinned or not mesh.topology.boundary[nodes].all() else tr("The boundary cannot be free.")
-    if key == "slide":
-        surface = (
-            mesh.topology.boundary
-            if mesh.materials is None
-            else (mesh.topology.boundary | mesh.materials.interface_nodes)
-        )
-        return "" if surface[nodes].any() else tr("None of its nodes is on the boundary or an interface.")
-    if key == "plane":
-        try:
-            normal_of_set(mesh, name)
-        except MeshError:
-            return tr("Its nodes are not in one plane.")
-    return ""
-
-
-def _partners(mesh: Mesh, name: str, count: int) -> list[str]:
-    """Return the names of other sets that may be periodic with a set of so many nodes: of faces or nodes, as many."""
-    if name in mesh.hex_sets or not count:
-        return []
-    others = [other for other in set_names(mesh) if other != name and other not in mesh.hex_sets]
-    return [other for other in others if np.unique(nodes_in_set(mesh, other)).size == count]

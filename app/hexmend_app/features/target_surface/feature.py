@@ -13,7 +13,7 @@ from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature
 from hexmend_app.state.tasks.task import Task
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_surface
+from hexmend_app.widgets.dialogs.questions import ask_to_open
 
 
 class FeatureTargetSurface(Feature):
@@ -44,7 +44,8 @@ class FeatureTargetSurface(Feature):
 
     def ask(self) -> None:
         """Ask for the file of a surface, and let the boundary slide on it."""
-        path = ask_surface(self.host.dialog_parent)
+        kinds = tr("Surfaces (*.stl *.obj *.ply *.vtp *.vtk);;All files (*)")
+        path = ask_to_open(self.host.dialog_parent, tr("Slide on surface of file"), kinds)
         if path:
             self.choose(path)
 

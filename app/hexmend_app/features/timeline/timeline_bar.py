@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
-from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
+from PySide6.QtGui import QAction, QActionGroup, QMouseEvent, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QSlider, QStyle, QStyleOptionSlider, QToolButton, QWidget
 
 from hexmend_app.features.timeline.run_bar import RunBar
-from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, tabular, tool_button
 from hexmend_app.translation import tr
@@ -57,7 +56,7 @@ class TimelineBar(QWidget):
         self._branch = ActionButton()
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
-        self.slider = TrackSlider()
+        self.slider = TrackSlider(Qt.Orientation.Horizontal)
         self.slider.setMinimumWidth(_LEAST_TRACK)
         set_help(self.slider, tr("Iteration"), tr("Displayed iteration."))
         self._at = QLabel()
@@ -94,7 +93,7 @@ class TimelineBar(QWidget):
             self.set_track(0, 1, {}, 0)
             self.set_number(None)
 
-    def set_track(self, newest: int, stored: int, marks: Mapping[int, str], used: int) -> None:
+    def set_track(self, newest: int, stored: int, pauses: Mapping[int, str], used: int) -> None:
         """Show the iterations of the run.
 
         Parameters
@@ -103,15 +102,17 @@ class TimelineBar(QWidget):
             Number of the latest iteration.
         stored : int
             Number of iterations whose positions are stored.
-        marks : mapping of int to str
+        pauses : mapping of int to str
             Reasons of pauses, by iteration.
         used : int
             Memory of all runs in bytes.
         """
-        self.slider.set_track(newest, marks)
+        with QSignalBlocker(self.slider):
+            self.slider.setRange(0, newest)
+        self.slider.setPageStep(max(1, newest // 10))
         part = "" if stored == newest + 1 else tr(" {count} of them are stored.", count=stored)
-        pauses = "".join(f"<br>{number}: {sentence}" for number, sentence in marks.items())
-        tip = f"<qt>{counted(newest, self._unit)}.{part}{pauses}</qt>"
+        reasons = "".join(f"<br>{number}: {sentence}" for number, sentence in pauses.items())
+        tip = f"<qt>{counted(newest, self._unit)}.{part}{reasons}</qt>"
         if tip != self.slider.toolTip():
             self.slider.setToolTip(tip)
         self._used.setText(tr("In use: {count}", count=size(used)))
@@ -170,3 +171,19 @@ class TimelineBar(QWidget):
             menu.addAction(action)
         group.triggered.connect(lambda action: chosen.emit(action.data()))
         return group
+
+
+class TrackSlider(QSlider):
+    """Slider that jumps to the pressed place."""
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Move the handle to the pressed place, from where it can be dragged."""
+        if event.button() is Qt.MouseButton.LeftButton:
+            option = QStyleOptionSlider()
+            self.initStyleOption(option)
+            style, part = self.style(), QStyle.SubControl.SC_SliderGroove
+            groove = style.subControlRect(QStyle.ComplexControl.CC_Slider, option, part, self)
+            handle = style.pixelMetric(QStyle.PixelMetric.PM_SliderLength, option, self)
+            place = round(event.position().x()) - groove.x() - handle // 2
+            self.setValue(QStyle.sliderValueFromPosition(0, self.maximum(), place, groove.width() - handle))
+        super().mousePressEvent(event)

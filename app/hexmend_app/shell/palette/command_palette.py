@@ -47,7 +47,7 @@ class CommandPalette(QDialog):
         self._found: list[PaletteEntry] = []
         self._list = QTreeWidget()
         self._field = _Field(self._list)
-        self._field.setPlaceholderText(tr("Find a command, panel, method, metric or setting"))
+        self._field.setPlaceholderText(tr("Find a command, panel, method or metric"))
         set_help(self._field, tr("Command"), tr("Type parts of its name in any order; Enter runs the selected entry."))
         self._list.setColumnCount(2)
         self._list.setHeaderHidden(True)

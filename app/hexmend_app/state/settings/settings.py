@@ -47,10 +47,6 @@ class Setting(Generic[T]):
         except (TypeError, ValueError, msgspec.MsgspecError):  # written by hand
             return self.default
 
-    def clear(self) -> None:
-        """Remove the stored value."""
-        QSettings().remove(self.key)
-
     def set(self, value: T) -> None:
         """Store a value."""
         QSettings().setValue(self.key, msgspec.json.encode(value, enc_hook=str).decode() if self.is_json else value)
@@ -74,9 +70,8 @@ def store_in(folder: str) -> None:
         QSettings.setPath(form, QSettings.Scope.UserScope, folder)
 
 
-#: Numbers from 1, and shares.
+#: Numbers from 1.
 _Positive = Annotated[int, Meta(ge=1)]
-_Share = Annotated[float, Meta(ge=0, le=1)]
 
 #: Position and size of the window, and the layout of its panels.
 GEOMETRY = Setting("geometry", QByteArray(), QByteArray)
@@ -94,8 +89,3 @@ ITERATIONS_PLAYED = Setting("iterations_played", 10, _Positive)
 EVERY_ITERATION = Setting("every_iteration", False, bool)
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, bool)
-
-
-def overlay_position(key: str, default: tuple[float, float]) -> Setting[tuple[float, float]]:
-    """Return the setting of the position of an overlay over the view, as shares of the free width and height."""
-    return Setting(f"overlay/{key}", default, tuple[_Share, _Share], is_json=True)

@@ -33,67 +33,38 @@ def ask_mesh(parent: QWidget) -> str:
         kinds=kinds,
         suffix=SUFFIX,
     )
-    return _ask_to_open(parent, tr("Open mesh or session"), filters)
+    return ask_to_open(parent, tr("Open mesh or session"), filters)
 
 
-def ask_target(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
-    """Ask for the file to save the mesh to; "" if cancelled. The suffix is proposed if it can be written."""
-    return _ask_mesh(parent, tr("Save mesh as"), f"{stem}-smoothed", suffix)
-
-
-def ask_visible(parent: QWidget, stem: str, suffix: str = ".vtu") -> str:
-    """Ask for the file to save the visible hexes to, as `ask_target`."""
-    return _ask_mesh(parent, tr("Save visible hexes as"), f"{stem}-visible", suffix)
-
-
-def _ask_mesh(parent: QWidget, title: str, stem: str, suffix: str) -> str:
+def ask_mesh_target(parent: QWidget, title: str, stem: str, suffix: str = ".vtu") -> str:
+    """Ask for the file to save a mesh to; "" if cancelled. The suffix is proposed if it can be written."""
     suffix = suffix.lower() if suffix.lower() in writable_suffixes() else ".vtu"
     kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
-    return _ask_to_save(parent, title, f"{stem}{suffix}", kinds, _mesh_kind(suffix))
+    return ask_to_save(parent, title, f"{stem}{suffix}", kinds, _mesh_kind(suffix))
 
 
 def ask_session(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the session to; "" if cancelled."""
-    return _ask_to_save(
-        parent, tr("Save session as"), f"{stem}{SUFFIX}", tr("Hexmend session (*{suffix})", suffix=SUFFIX)
-    )
+    kinds = tr("Hexmend session (*{suffix})", suffix=SUFFIX)
+    return ask_to_save(parent, tr("Save session as"), f"{stem}{SUFFIX}", kinds)
 
 
-def ask_list(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save the list of the worst hexes to; "" if cancelled."""
-    return _ask_to_save(parent, tr("Save list as"), f"{stem}-worst.csv", tr("Table (*.csv)"))
+def ask_to_open(parent: QWidget, title: str, kinds: str) -> str:
+    """Ask for a file to read; "" if cancelled. Kinds of file are in the notation of Qt."""
+    path = QFileDialog.getOpenFileName(parent, title, str(folder()), kinds)[0]
+    if path:
+        remember_folder(Path(path))
+    return path
 
 
-def ask_surface(parent: QWidget) -> str:
-    """Ask for the file of a surface; "" if cancelled."""
-    return _ask_to_open(
-        parent, tr("Slide on surface of file"), tr("Surfaces (*.stl *.obj *.ply *.vtp *.vtk);;All files (*)")
-    )
-
-
-def ask_recipe(parent: QWidget) -> str:
-    """Ask for the recipe to load; "" if cancelled."""
-    return _ask_to_open(parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)"))
-
-
-def ask_recipe_target(parent: QWidget) -> str:
-    """Ask for the file to save the recipe to; "" if cancelled."""
-    return _ask_to_save(parent, tr("Save recipe as"), "recipe.toml", tr("Recipe (*.toml)"))
-
-
-def ask_scene(parent: QWidget) -> str:
-    """Ask for the scene to load; "" if cancelled."""
-    return _ask_to_open(parent, tr("Load scene"), tr("Scenes (*.toml);;All files (*)"))
-
-
-def ask_scene_target(parent: QWidget) -> str:
-    """Ask for the file to save the scene to; "" if cancelled."""
-    return _ask_to_save(parent, tr("Save scene as"), "scene.toml", tr("Scene (*.toml)"))
-
-
-def ask_script(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save the script to; "" if cancelled."""
-    return _ask_to_save(parent, tr("Save script as"), f"{stem}.py", tr("Python script (*.py)"))
+def ask_to_save(parent: QWidget, title: str, name: str, kinds: str, kind: str = "") -> str:
+    """Ask for a file to write, with the default `name` and `kind`; "" if cancelled. See `ask_to_open` for the kinds."""
+    entered, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, kind)
+    path = named(entered, kind or kinds)
+    if not path or (path != entered and not ask_replacing(parent, path)):  # the dialog has asked about `entered`
+        return ""
+    remember_folder(Path(path))
+    return path
 
 
 def remember_folder(path: Path) -> None:
@@ -242,20 +213,3 @@ def _ask_yes(parent: QWidget, text: str, question: str, icon: QMessageBox.Icon =
     box.setStandardButtons(buttons.Yes | buttons.No)
     box.setDefaultButton(buttons.No)
     return box.exec() == buttons.Yes
-
-
-def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, kind: str = "") -> str:
-    """Ask for a file of one of several kinds, with the default `name` and `kind`; "" if cancelled."""
-    entered, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, kind)
-    path = named(entered, kind or kinds)
-    if not path or (path != entered and not ask_replacing(parent, path)):  # the dialog has asked about `entered`
-        return ""
-    remember_folder(Path(path))
-    return path
-
-
-def _ask_to_open(parent: QWidget, title: str, filters: str) -> str:
-    path = QFileDialog.getOpenFileName(parent, title, str(folder()), filters)[0]
-    if path:
-        remember_folder(Path(path))
-    return path

@@ -5,65 +5,50 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QEventLoop, Qt, QTimer
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMessageBox, QWidget
 
-from hexmend_app.theme.spacing import fill
 from hexmend_app.translation import tr
 
 #: Milliseconds until the dialog is shown, and between two checks.
 _DELAY, _PERIOD = 300, 20
 
 
-class WaitingDialog(QDialog):
-    """Dialog that names a task and closes when it is done.
+def waiting_dialog(parent: QWidget, text: str, over: Callable[[], bool], leave: str) -> QMessageBox:
+    """Return a dialog that names a task, and closes when the task is done or Cancel is pressed.
 
     Parameters
     ----------
+    parent : QWidget
     text : str
         Description of the task.
     over : callable
         Returns True once the task is done.
     leave : str
         Text of the button that continues without waiting; "" for no button.
-    parent : QWidget
     """
-
-    def __init__(self, text: str, over: Callable[[], bool], leave: str, parent: QWidget):
-        super().__init__(parent)
-        self.setWindowTitle(tr("Please wait"))
-        self.setWindowModality(Qt.WindowModality.ApplicationModal)
-        label = QLabel(text)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        label.setWordWrap(True)
-        bar = QProgressBar()
-        bar.setRange(0, 0)
-        bar.setTextVisible(False)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        buttons.rejected.connect(self.reject)
-        if leave:
-            buttons.addButton(leave, QDialogButtonBox.ButtonRole.AcceptRole)
-            buttons.accepted.connect(self.accept)
-        buttons.button(QDialogButtonBox.StandardButton.Cancel).setDefault(True)  # so that Enter does not press `leave`
-        fill(QVBoxLayout(self), label, bar, buttons)
-        self._over = over
-        self._timer = QTimer(self, interval=_PERIOD)
-        self._timer.timeout.connect(self._check)
-        self._timer.start()
-
-    def _check(self) -> None:
-        if self._over():
-            self.accept()
+    box = QMessageBox(parent)
+    box.setWindowTitle(tr("Please wait"))
+    box.setTextFormat(Qt.TextFormat.PlainText)
+    box.setText(text)
+    box.setStandardButtons(QMessageBox.StandardButton.Cancel)
+    box.setDefaultButton(QMessageBox.StandardButton.Cancel)  # so that Enter does not press `leave`
+    if leave:
+        box.addButton(leave, QMessageBox.ButtonRole.AcceptRole)
+    timer = QTimer(box, interval=_PERIOD)
+    timer.timeout.connect(lambda: box.accept() if over() else None)
+    timer.start()
+    return box
 
 
 def wait_until(parent: QWidget, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-    """Wait until a task is done, and show a `WaitingDialog` if it takes more than a moment.
+    """Wait until a task is done, and show a dialog if it takes more than a moment.
 
     Parameters
     ----------
     parent : QWidget
         The window, which takes no input meanwhile.
     text, over, leave
-        See `WaitingDialog`.
+        See `waiting_dialog`.
 
     Returns
     -------
@@ -74,10 +59,10 @@ def wait_until(parent: QWidget, text: str, over: Callable[[], bool], leave: str 
         _wait_a_moment(over)
     if over():
         return True
-    dialog = WaitingDialog(text, over, leave, parent)
+    dialog = waiting_dialog(parent, text, over, leave)
     answer = dialog.exec()
     dialog.deleteLater()
-    return answer == QDialog.DialogCode.Accepted
+    return answer != QMessageBox.StandardButton.Cancel
 
 
 def _wait_a_moment(over: Callable[[], bool]) -> None:

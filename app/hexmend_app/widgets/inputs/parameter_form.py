@@ -17,7 +17,7 @@ from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import labelled, note, set_help, show_text, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
-from hexmend_app.widgets.wording import label_of, range_of, short_number
+from hexmend_app.widgets.wording import label_of, short_number
 
 
 class ParameterForm(QWidget):
@@ -105,7 +105,7 @@ class ParameterForm(QWidget):
         name, help = label_of(declaration), tr(declaration.help)
         editor = editor_for(declaration)
         default = declaration.default
-        expected = tr("{range}; default {default}.", range=range_of(declaration), default=_default_text(default))
+        expected = tr("Expected {range}; default {default}.", range=declaration.range, default=_default_text(default))
         if isinstance(default, bool):
             expected = tr("On by default.") if default else tr("Off by default.")
         set_help(editor, name, escape(help) if default == "" else f"{escape(help)}<br><i>{escape(expected)}</i>")

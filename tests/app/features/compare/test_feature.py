@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QToolButton
+from PySide6.QtWidgets import QApplication, QFileDialog, QLabel, QToolButton
 
 from hexmend import METHODS, StoppingCriteria, compare
 from hexmend_app.canvas.wipe_handle import WipeHandle
@@ -84,6 +84,13 @@ def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparin
     comparing.refresh()
     assert "interrupted" in status.text()
     assert comparing.window_actions["compare"].isEnabled()
+
+
+def test_the_table_is_saved_by_its_button(compared, tmp_path, monkeypatch):
+    path = tmp_path / "table.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    press(compared.features["compare"].panel.save_button)
+    assert {name in path.read_text() for name in ("laplacian", "getme", "local-sd")} == {True}
 
 
 def test_a_result_replaces_the_mesh_and_can_be_undone(compared):

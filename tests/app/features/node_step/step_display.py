@@ -4,9 +4,7 @@ from html import unescape
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel
-
-from tests.app.driving import named
+from PySide6.QtWidgets import QAbstractButton, QLabel
 
 
 def shown_step(window):
@@ -35,10 +33,6 @@ def wait_for_step(window, qtbot, method, node=None):
 
 def button(window, text):
     return next(b for b in window.features["node_step"].panel.findChildren(QAbstractButton) if b.text() == text)
-
-
-def patch_box(window):
-    return named(window.features["node_step"].panel, QCheckBox, "Isolate patch")
 
 
 def count_pixels(image, role, dark=False):

@@ -17,12 +17,11 @@ from hexmend_app.picture import Cut, Isolate
 from hexmend_app.state.node_step import StepStatus, Trial, explain
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH, TEXT, WORSE
-from tests.app.driving import LEFT, choose, choose_by_keys, click_until, key, named, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click_until, key, named, pixels, press
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
     drawn_trials,
-    patch_box,
     shown_step,
     texts,
     wait_for_step,
@@ -130,9 +129,6 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
         assert alpha == trials[number - 1].alpha
         assert low < height < high
         assert (height > 0.8 * high) == (number < len(trials))
-    assert len(plot.numbers) > 1
-    plot.show_step(None)
-    assert plot.numbers == []
 
 
 @pytest.mark.parametrize("name", METHODS)
@@ -222,7 +218,7 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
 @pytest.mark.slow
 def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut(node_window, qtbot):
     window = node_window
-    tick(patch_box(window))
+    press(button(window, "Isolate patch"))
     step = shown_step(window)
     assert window.session.view.look.show.isolate == Isolate(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size

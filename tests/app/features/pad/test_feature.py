@@ -76,18 +76,20 @@ def test_the_dialog_offers_what_the_mesh_has(window, session, qtbot, monkeypatch
     mesh = session.document.now.mesh
     dialog = PadDialog(mesh, 1, 1)
     qtbot.addWidget(dialog)
-    offered = [dialog.where.itemData(k) for k in range(dialog.where.count())]
-    assert offered == [(None, None), (None, "locked"), (None, "inverted"), ("bottom", None)]
-    assert dialog.choice() == PaddingChoice()
-    assert not dialog.rings.isEnabled()
-    dialog.where.setCurrentIndex(1)
-    dialog.rings.setValue(2)
-    dialog.thickness.setValue(0.25)
-    assert dialog.choice() == PaddingChoice(None, "locked", 2, 0.25)
+    where = dialog.form.editors["where"]
+    choices = []
+    for at in range(where.count()):
+        where.setCurrentIndex(at)
+        choices.append(dialog.choice())
+    assert choices == [
+        PaddingChoice(*of) for of in ((None, None), (None, "locked"), (None, "inverted"), ("bottom", None))
+    ]
+    dialog.form.set_values({"rings": 2, "thickness": 0.25})
+    assert dialog.choice() == PaddingChoice("bottom", None, 2, 0.25)
     monkeypatch.setattr(PadDialog, "exec", lambda dialog: False)
     window.action("pad").trigger()
     assert not session.padder.busy
-    monkeypatch.setattr(PadDialog, "exec", lambda dialog: dialog.where.setCurrentIndex(1) or True)
+    monkeypatch.setattr(PadDialog, "exec", lambda dialog: dialog.form.editors["where"].setCurrentIndex(1) or True)
     with qtbot.waitSignal(session.padder.ended) as ended:
         window.action("pad").trigger()
     assert len(ended.args[0].layer) < 54

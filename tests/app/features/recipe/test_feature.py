@@ -64,9 +64,9 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
     add(window, panel, "local-sd", {"p": 4.0})
     add(window, panel, "mend", {"goal": "shape"}, StoppingCriteria())
     assert stages(panel) == [
-        "1  GETMe, simultaneous (at most 20 iterations)",
-        "2  Local steepest descent (p 4, at most 3 iterations, tolerance 0)",
-        "3  Mend (Goal shape)",
+        "1  GETMe, simultaneous (max_iterations=20)",
+        "2  Local steepest descent (p=4, max_iterations=3, tolerance=0)",
+        "3  Mend (goal=shape)",
     ]
     press(button(panel, "Move up"))  # the one added last is chosen
     assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend", "local-sd"]

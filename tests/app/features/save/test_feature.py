@@ -127,7 +127,7 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     out, said = tmp_path / "out.vtu", []
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: said.append(given[2]) or (str(out), ""))
     window.action("save_visible").trigger()
-    qtbot.waitUntil(lambda: not window.features["save"].visible.going_on)
+    qtbot.waitUntil(lambda: not window.session.saver.busy)
     assert said[0].endswith("-visible.vtu")
     corners = mesh.points[mesh.hexes][:, :, 0]
     shown = centres[:, 0] <= middle[0] if style is CutStyle.CRINKLE else corners.min(axis=1) < middle[0]
@@ -144,8 +144,7 @@ def test_only_data_of_the_visible_hexes_is_missed(window, qtbot, tmp_path, tagge
     window.session.commands.tag("far", tagged)
     window.session.view.dig(1)  # hides it
     window.refresh()
-    saver = window.features["save"].visible
-    saver.save(tmp_path / "out.su2", window.canvas.viewport)
-    qtbot.waitUntil(lambda: not saver.going_on)
+    window.features["save"].save_visible(tmp_path / "out.su2")
+    qtbot.waitUntil(lambda: not window.session.saver.busy)
     missed = " ".join(text for _, title, text in window.messages.messages() if title == "Some data was not saved")
     assert ("element sets (far)" in missed) is warned

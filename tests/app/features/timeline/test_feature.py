@@ -3,11 +3,11 @@
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QToolButton
+from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QStyle, QStyleOptionSlider, QToolButton
 
 from hexmend import METHODS, Outcome, Step, StoppingCriteria
 from hexmend_app.features.timeline.run_bar import RunBar
-from hexmend_app.features.timeline.track_slider import TrackSlider
+from hexmend_app.features.timeline.timeline_bar import TrackSlider
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, click_until, key, named, phase, press, sentence, type_text
 
@@ -33,7 +33,11 @@ def slider(window):
 def slider_place(window, number):
     """Return the position of a number on the slider."""
     window.refresh()
-    return QPoint(slider(window).place(number), slider(window).height() // 2)
+    track, option = slider(window), QStyleOptionSlider()
+    track.initStyleOption(option)
+    option.sliderPosition = number
+    parts = QStyle.ComplexControl.CC_Slider, option, QStyle.SubControl.SC_SliderHandle
+    return track.style().subControlRect(*parts, track).center()
 
 
 def go(window, qtbot, number):
@@ -50,7 +54,7 @@ def at(window, number):
 
 
 def check(window, text):
-    box = next(b for b in window.features["smooth"].panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
+    box = named(window.features["smooth"].panel, QCheckBox, text)
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     assert box.isChecked()
 

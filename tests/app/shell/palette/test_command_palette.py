@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLineEdit, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QMainWindow, QWidget
 
 from hexmend import METHODS, METRICS
 from hexmend_app.feature import Panel, PanelPlace
@@ -15,8 +15,6 @@ from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
 from hexmend_app.shell.panels.docks import Docks
-from hexmend_app.theme.style import set_help
-from hexmend_app.widgets.section import Section
 from tests.core.grids import grid
 
 
@@ -125,36 +123,14 @@ def host(hosted):
     return hosted(grid(3))
 
 
-@pytest.fixture
-def panel(qtbot):
-    """A panel with four check boxes: in a collapsed section, disabled, hidden, and plain."""
-    widget = QWidget()
-    boxes = {name: QCheckBox(name) for name in ("Folded", "Disabled", "Hidden", "Plain")}
-    for name, box in boxes.items():
-        set_help(box, f"{name} box", f"The box that is {name.lower()}.")
-    boxes["Disabled"].setEnabled(False)
-    column = QVBoxLayout(widget)
-    column.addWidget(Section("More", boxes["Folded"], ""))
-    for name in ("Disabled", "Hidden", "Plain"):
-        column.addWidget(boxes[name])
-    boxes["Hidden"].hide()
-    return Panel(id="boxes", title="Boxes", widget=widget, place=PanelPlace.TOOLS, help="Some boxes.")
-
-
-def test_panels_and_their_controls_have_entries_that_show_and_focus_them(panel, shown):
-    other = Panel(id="other", title="Other", widget=QWidget(), place=PanelPlace.TOOLS, order=1)
+def test_panels_have_entries_that_show_them(shown):
+    panels = [Panel(id=id, title=id.title(), widget=QWidget(), place=PanelPlace.TOOLS) for id in ("boxes", "other")]
     main = QMainWindow()
     docks = Docks(main)
-    docks.add([panel, other])
+    docks.add(panels)
     shown(main, 900, 500)
-    docks.show_panel("other")
-    entries = {entry.title: entry for entry in panel_entries(docks, [panel, other])}
-    assert list(entries) == ["Panel: Boxes", "Panel: Other", "In Boxes: Folded box", "In Boxes: Plain box"]
-    entries["In Boxes: Folded box"].run()
-    box = next(one for one in panel.widget.findChildren(QCheckBox) if one.text() == "Folded")
-    assert docks.is_visible("boxes")
-    assert box.isVisible()
-    assert box.hasFocus()
+    entries = {entry.title: entry for entry in panel_entries(docks, panels)}
+    assert list(entries) == ["Panel: Boxes", "Panel: Other"]
     entries["Panel: Other"].run()
     assert docks.is_visible("other")
 

@@ -51,18 +51,6 @@ def test_an_invalid_value_gives_the_default(name):
     assert setting.get() == setting.default
 
 
-@pytest.mark.parametrize("stored", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
-def test_an_invalid_or_cleared_position_gives_the_default(stored):
-    setting = settings.overlay_position("card", (1.0, 0.5))
-    setting.set((0.25, 0.0))
-    assert settings.overlay_position("card", (1.0, 0.5)).get() == (0.25, 0.0)
-    settings.QSettings().setValue(setting.key, stored)
-    assert setting.get() == (1.0, 0.5)
-    setting.set((0.25, 0.0))
-    setting.clear()
-    assert setting.get() == (1.0, 0.5)
-
-
 def test_only_this_module_uses_qsettings():
     root = Path(hexmend_app.__file__).parent
     users = {

@@ -1,4 +1,4 @@
-"""Dialogs that export charts and tables."""
+"""Dialogs that export charts, and dialogs that ask for files."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,7 +11,7 @@ from hexmend_app.report.charts import ChartStyle
 from hexmend_app.report.histogram import Histogram, Series
 from hexmend_app.state.settings.settings import FOLDER
 from hexmend_app.widgets.dialogs import questions
-from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, TableDialog
+from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog
 
 HISTOGRAM = Histogram([Series("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")])
 WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", ChartStyle())
@@ -64,16 +64,6 @@ def test_replacing_an_existing_file_is_asked_once(dialog, qtbot, tmp_path, monke
     assert not dialog.isVisible()
 
 
-def test_the_preview_of_a_table_has_the_typed_names(qtbot):
-    dialog = TableDialog(lambda style: f"**{style.names.get('mend', 'mend')}**", *WORDS, "bridge", ["mend"])
-    qtbot.addWidget(dialog)
-    dialog.show()
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "mend")
-    dialog.names["mend"].setText("ours")
-    dialog.names["mend"].textEdited.emit("ours")
-    qtbot.waitUntil(lambda: dialog.preview.toPlainText() == "ours")
-
-
 def texts(dialog):
     """Return the problems that the dialog shows."""
     return [label.text() for label in dialog.findChildren(QLabel) if label.accessibleName() == "Problem"]
@@ -82,13 +72,13 @@ def texts(dialog):
 # Dialogs that ask for files: their common folder, and suffixes of names.
 
 
-SAVING = {
-    "ask_target": ("bridge",),
-    "ask_list": ("bridge",),
-    "ask_recipe_target": (),
-    "ask_script": ("bridge",),
+LIST = ("Save list as", "bridge-worst.csv", "Table (*.csv)")
+DIALOGS = {
+    "ask_mesh_target": ("Save mesh as", "bridge"),
+    "ask_to_save": LIST,
+    "ask_mesh": (),
+    "ask_to_open": ("Load recipe", "Recipes (*.toml)"),
 }
-OPENING = ("ask_mesh", "ask_recipe")
 
 
 @pytest.fixture
@@ -111,14 +101,14 @@ def answers(qapp, tmp_path, monkeypatch):
     return answers
 
 
-@pytest.mark.parametrize("name", [*SAVING, *OPENING])
+@pytest.mark.parametrize("name", DIALOGS)
 def test_every_dialog_starts_in_the_folder_of_the_last_file(answers, tmp_path, name):
     one, other = tmp_path / "one", tmp_path / "other"
     one.mkdir()
     other.mkdir()
     questions.remember_folder(one / "mesh.vtu")
     answers.name = str(other / "result.txt")
-    assert getattr(questions, name)(None, *SAVING.get(name, ())) == answers.name
+    assert getattr(questions, name)(None, *DIALOGS[name]) == answers.name
     assert answers.begun[-1].startswith(str(one))
     assert questions.folder() == other
 
@@ -132,23 +122,23 @@ def test_the_first_dialog_starts_in_the_working_directory_of_a_terminal(
     monkeypatch.chdir(tmp_path / "working")
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
     monkeypatch.setattr("sys.stdin", None if terminal is None else SimpleNamespace(isatty=lambda: terminal))
-    FOLDER.clear()
+    FOLDER.set(FOLDER.default)
     questions.ask_mesh(None)
     assert Path(answers.begun[-1]) == tmp_path / place
 
 
-@pytest.mark.parametrize("name", SAVING)
+@pytest.mark.parametrize("name", ["ask_mesh_target", "ask_to_save"])
 def test_a_name_without_a_suffix_gets_that_of_the_chosen_or_first_kind(answers, tmp_path, name):
     answers.name = str(tmp_path / "result")
-    assert getattr(questions, name)(None, *SAVING[name]).startswith(f"{answers.name}.")
+    assert getattr(questions, name)(None, *DIALOGS[name]).startswith(f"{answers.name}.")
     answers.kind = "Something (*.some)"
-    assert getattr(questions, name)(None, *SAVING[name]) == f"{answers.name}.some"
+    assert getattr(questions, name)(None, *DIALOGS[name]) == f"{answers.name}.some"
 
 
 def test_replacing_a_file_is_asked_if_the_file_dialog_did_not(answers, tmp_path, monkeypatch):
     (tmp_path / "list.csv").write_text("another")
     answers.name = str(tmp_path / "list")
     monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.No)
-    assert questions.ask_list(None, "bridge") == ""
+    assert questions.ask_to_save(None, *LIST) == ""
     monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Yes)
-    assert questions.ask_list(None, "bridge") == str(tmp_path / "list.csv")
+    assert questions.ask_to_save(None, *LIST) == str(tmp_path / "list.csv")
