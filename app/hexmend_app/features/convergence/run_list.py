@@ -8,7 +8,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from hexmend_app.features.convergence.curves import Curve, colour_of
-from hexmend_app.theme.style import set_help, smaller
+from hexmend_app.theme.style import on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import swatch_icon
 from hexmend_app.widgets.wording import counted
@@ -31,6 +31,7 @@ class RunList(QListWidget):
         self.setFont(smaller(self.font()))
         set_help(self, tr("Runs"), tr("Check the runs to plot; the current run is bold."))
         self.itemChanged.connect(self._on_changed)
+        on_theme_change(self, lambda: self.set_curves(self._curves))
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """List these runs."""

@@ -121,18 +121,14 @@ class History:
         for record in list(self.records):
             self.remove(record)
 
-    def note_iterations(self, states: Iterable[State]) -> None:
-        """Find the iterations that states show, for session files."""
-        for state in states:
-            self.iteration_of(state)
-
-    def to_data(self) -> HistoryData:
-        """Return the data for a session file."""
+    def to_data(self, states: Iterable[State]) -> HistoryData:
+        """Return the data for a session file, with the iterations that some states show."""
         with self._lock:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
             records = tuple(to_data(record, at, record._offsets) for record in started)
-        shown = [(state, at[one.record], one.number) for state, one in self._moments.items() if one.record in at]
+        moments = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
+        shown = [(state, at[one.record], one.number) for state, one in moments if one and one.record in at]
         return HistoryData(records, tuple(shown))
 
     def restore(self, data: HistoryData) -> None:

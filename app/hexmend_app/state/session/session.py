@@ -191,8 +191,9 @@ class Session(QObject):
     def to_data(self) -> SessionData:
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
         self.about_to_save.emit()
-        self.history.note_iterations([self.document.now, *self.document.states])
-        return SessionData(**{name: part.to_data() for name, part in self._saved.items()})
+        history = self.history.to_data([self.document.now, *self.document.states])
+        parts = {name: part.to_data() for name, part in self._saved.items() if part is not self.history}
+        return SessionData(history=history, **parts)
 
     def restore(self, data: SessionData, path: Path | None = None) -> None:
         """Restore the state of a session file.
