@@ -132,6 +132,7 @@ def test_tab_goes_in_reading_order(everything_on):
     tools, facts = (window.features[name].panel for name in ("smooth", "histogram"))
     parts = [
         window.canvas.colour_bar,
+        window.features["quality"].bar,
         window.messages,
         window.features["timeline"].panel,
         named(window, QTabBar, "Panels below the view"),

@@ -91,6 +91,8 @@ class ParameterForm(QWidget):
         self._declarations = declared
         self.editors, self._labels = {}, {}
         before = self._advanced.previousInFocusChain()
+        while not before.focusPolicy() & Qt.FocusPolicy.TabFocus:  # setTabOrder ignores other widgets
+            before = before.previousInFocusChain()
         for declaration in declared.values():
             self._add_row(declaration)
         # Qt appends new widgets to the tab order of the whole window.
