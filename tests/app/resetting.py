@@ -15,6 +15,7 @@ from hexmend_app.state.run.timeline import SPEED
 from hexmend_app.state.session import session_data
 from hexmend_app.theme import theme_choice
 from hexmend_app.widgets.section import Section
+from hexmend_app.widgets.view_strip import ViewStrip
 
 SIZE = 1024, 640
 
@@ -62,6 +63,8 @@ class Resetting:
             window.resize(*SIZE)
             window.refresh()
             window.messages.clear()
+            for strip in window.findChildren(ViewStrip):
+                strip.closed.emit()
             if window.docks.state() != self._layout:
                 lay_out(window, self._layout)
             for section in self._collapsed:
