@@ -48,7 +48,7 @@ class ShadingTask(QObject):
             return occlusion.ambient_light(polygons, lambda: mesh_layer.draws(polygons) and not task.cancelled.is_set())
 
         self._target = mesh_layer, polygons
-        self._task = Task("shading of the mesh", work)
+        self._task = Task("shading of the mesh", work, yields=True)
         self._task.ended.connect(self._finish)
         self._task.start()
 

@@ -194,7 +194,7 @@ class Comparison(QObject):
         self._stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
         work = partial(_run_all, self.initial, tuple(smoothers), stop, self._rules)
-        self._task = Task("comparison of methods", work)
+        self._task = Task("comparison of methods", work, yields=True)
         self._task.reported.connect(self._take)
         self._task.ended.connect(self._finish)
         self._task.start()

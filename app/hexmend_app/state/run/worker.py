@@ -104,7 +104,7 @@ class Worker:
         record: Callable[[Iteration], object],
         rules: MotionRules | None = None,
     ):
-        self.task = Task(f"smoother {smoother.name}", self._run)
+        self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
         self.last: IterationFrame | None = None
         self.recipe: Recipe | None = None

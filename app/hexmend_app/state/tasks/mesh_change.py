@@ -75,7 +75,7 @@ class MeshChanger(QObject):
     def start(self, name: str, change: Callable[[State, Task], MeshChange]) -> None:
         """Start a change of the mesh, which is editable, by a function of its state and the task."""
         self._before = before = self._document.now
-        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task))
+        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
         self._task.ended.connect(self._finish)
         self.began.emit()
         self._task.start()

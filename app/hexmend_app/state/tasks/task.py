@@ -52,6 +52,8 @@ class Task(QObject):
     work : callable
         Function that is called in the thread with this task. It should return soon after `cancelled` is set, as it
         cannot be ended from outside.
+    yields : bool
+        True to give the thread a lower priority than the window, for work that takes seconds.
 
     Attributes
     ----------
@@ -75,9 +77,9 @@ class Task(QObject):
     _message_posted = Signal(object)
     _end_posted = Signal()
 
-    def __init__(self, name: str, work: Callable[[Task], Any]):
+    def __init__(self, name: str, work: Callable[[Task], Any], yields: bool = False):
         super().__init__()
-        self.name = name
+        self.name, self._yields = name, yields
         self.cancelled = threading.Event()
         self.result: Any = None
         self.error: BaseException | None = None
@@ -143,6 +145,11 @@ class Task(QObject):
 
     def _run(self) -> None:
         try:
+            if self._yields:
+                # Imported with the kernels, which a first task loads.
+                from hexmend_app.state.tasks.thread_priority import lower_priority
+
+                lower_priority()
             self.result = self._work(self)
         except BaseException as error:  # the window reports errors of any kind
             self.error = error

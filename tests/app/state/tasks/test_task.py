@@ -1,6 +1,7 @@
 """Background tasks: signals, cancelling, dropping, and threads that stay running."""
 
 import gc
+import os
 import threading
 import weakref
 
@@ -97,6 +98,17 @@ def test_a_task_without_references_lives_until_it_is_over(qtbot, gate):
     qtbot.waitUntil(lambda: signals == ["end"])
     gc.collect()
     assert known() is None
+
+
+@pytest.mark.skipif(not hasattr(os, "getpriority"), reason="the system has no process priorities")
+@pytest.mark.parametrize("yields", [False, True])
+def test_a_task_that_yields_has_a_lower_priority(qtbot, yields):
+    own = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+    task = Task("smoother", lambda task: os.getpriority(os.PRIO_PROCESS, threading.get_native_id()), yields=yields)
+    with qtbot.waitSignal(task.ended):
+        task.start()
+    assert (task.result > own) == (yields and own < 19)  # the lowest
+    assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == own
 
 
 # Cyclic garbage is collected in the thread of the window only.
