@@ -134,6 +134,7 @@ def test_tab_goes_in_reading_order(everything_on):
         window.canvas.colour_bar,
         window.features["quality"].bar,
         window.messages,
+        window.features["tags"].strip,
         window.features["timeline"].panel,
         named(window, QTabBar, "Panels below the view"),
         window.features["hex_inspector"].worst_list,
@@ -149,7 +150,7 @@ def test_tab_goes_in_reading_order(everything_on):
         isinstance(one.parentWidget(), Section) or window.features["recipe"].panel.isAncestorOf(one) for one in within
     )
     seen = [part for part in at if part is not None]
-    assert seen == sorted(seen)
+    assert seen == sorted(seen), seen
     assert set(seen) == set(range(len(parts)))
     assert_read_from_the_top(window, reached)
     choose_by_keys(window, "local-sd")  # its parameters are made while the window is there

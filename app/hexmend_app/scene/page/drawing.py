@@ -82,23 +82,25 @@ class Drawing:
         halo : bool
             Outline the letters in the background colour, so that they are visible in front of a mesh.
         """
-        self._figure.text(
-            x,
-            y,
-            text,
-            transform=self._place,
-            fontsize=share * self.letters.points,
-            fontfamily=FAMILY,
-            fontweight="bold" if bold else "normal",
-            color=colour or self.colour,
-            horizontalalignment={"l": "left", "m": "center", "r": "right"}[anchor[0]],
-            verticalalignment={"t": "top", "m": "center_baseline", "b": "bottom"}[anchor[1]],
-            rotation=90 if turned else 0,
-            rotation_mode="anchor",
-            parse_math=False,
-            zorder=4,
-            path_effects=self._halo if halo else [],
-        )
+        # The outline is a text of its own, as letters with effects are curves in vector files.
+        for effects in (self._halo, []) if halo and self._halo else ([],):
+            self._figure.text(
+                x,
+                y,
+                text,
+                transform=self._place,
+                fontsize=share * self.letters.points,
+                fontfamily=FAMILY,
+                fontweight="bold" if bold else "normal",
+                color=colour or self.colour,
+                horizontalalignment={"l": "left", "m": "center", "r": "right"}[anchor[0]],
+                verticalalignment={"t": "top", "m": "center_baseline", "b": "bottom"}[anchor[1]],
+                rotation=90 if turned else 0,
+                rotation_mode="anchor",
+                parse_math=False,
+                zorder=4,
+                path_effects=effects,
+            )
 
     def arrow(self, start: tuple[float, float], end: tuple[float, float], colour: str) -> None:
         """Draw an arrow, outlined in the background colour."""

@@ -98,14 +98,14 @@ def test_the_set_contains_the_opened_the_current_and_the_compared_meshes(window,
     folder = export("report", "set", "figures")
     assert "Figure set saved" in " ".join(window.messages.messages()[-1])
     parts = {path.stem for path in folder.glob("*.png")}
-    assert parts == {"surface", "cut", "distributions", "convergence"}
+    assert parts == {"surface", "behind", "cut", "distributions", "convergence"}
     rows = json.loads((folder / "table.json").read_text())["rows"]
     assert [row["name"] for row in rows] == names[1:]
     assert read_scene(folder / "scene.toml").colours.metric == "q"  # the change of q needs a smoothed mesh
     with Image.open(folder / "surface.png") as picture:
         assert picture.convert("L").getextrema()[0] < 100
     commands = [line for line in (folder / "commands.sh").read_text().splitlines() if line.startswith("hexmend")]
-    assert len(commands) == 5
+    assert len(commands) == 6
     arguments = shlex.split(commands[0])
     assert f"{folder}/run.toml,{folder}/laplacian.toml,{folder}/getme.toml" in arguments
     figure = (folder / "distributions.svg").read_text()
