@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import ParameterError
 from hexmend.quality.regressions import Q_OF_TARGET, REGRESSION_KEYS
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
@@ -114,35 +113,12 @@ def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
     return f"objective {formula}" if figure.key == "objective" and formula else figure.label
 
 
-def record_table(
-    comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None
-) -> Table:
-    """Make the table of a comparison's record.
-
-    Parameters
-    ----------
-    comparison : mapping
-        See `hexmend.study.compare.Comparison.record`.
-    names : mapping of str to str, optional
-        Names to be printed by names of methods; "initial" is the initial mesh.
-    title : str, optional
-        By default the name and size of the mesh.
-
-    Raises
-    ------
-    ParameterError
-        If two have the same name.
-    """
+def record_table(comparison: Mapping[str, Any]) -> Table:
+    """Make the table of a comparison's record, see `hexmend.study.compare.Comparison.record`."""
     initial = comparison["initial"]
-    columns: dict[str, Mapping[str, Any]] = {}
-    for own, record in [("initial", initial), *((row["method"], row) for row in comparison["rows"])]:
-        head = _display_name(own, names)
-        if head in columns:
-            raise ParameterError(f"two methods are called {head!r}: expected a name for each")
-        columns[head] = record
-    if title is None:
-        hexes, free = count_phrase(initial["hexes"], "hex", "hexes"), count_phrase(initial["free_nodes"], "free node")
-        title = f"{comparison['mesh']}: {hexes}, {free}"
+    columns = {row["method"]: row for row in comparison_rows(comparison)}
+    hexes, free = count_phrase(initial["hexes"], "hex", "hexes"), count_phrase(initial["free_nodes"], "free node")
+    title = f"{comparison['mesh']}: {hexes}, {free}"
     notes = []
     if locked := initial["locked_inverted"]:
         which = count_phrase(locked, "of the inverted hexes is", "of the inverted hexes are")
@@ -152,31 +128,20 @@ def record_table(
     return comparison_table(title, columns, notes=notes)
 
 
-def comparison_rows(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None) -> list[Mapping[str, Any]]:
-    """Return the rows for spreadsheets: the initial mesh and the methods, renamed by `names`."""
-    rows = [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
-    return [{**row, "method": _display_name(row["method"], names)} for row in rows]
+def comparison_rows(comparison: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return the rows for spreadsheets: the initial mesh and the methods."""
+    return [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
 
 
-def write_comparison(
-    path: Path, comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None
-) -> None:
+def write_comparison(path: Path, comparison: Mapping[str, Any]) -> None:
     """Write the record of a comparison as CSV, Markdown, LaTeX or JSON, by the path's suffix.
-
-    For `names` and `title` see `record_table`; JSON has the record as it is.
 
     Raises
     ------
     FileError
         For another suffix, or if the file cannot be written.
-    ParameterError
-        If two methods have the same name.
     """
-    write_document(path, record_table(comparison, names, title), comparison_rows(comparison, names), comparison)
-
-
-def _display_name(own: str, names: Mapping[str, str] | None) -> str:
-    return (names or {}).get(own) or own
+    write_document(path, record_table(comparison), comparison_rows(comparison), comparison)
 
 
 def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:

@@ -184,6 +184,8 @@ class SlidingNodes(Band):
     def rejected_nodes(self, before: np.ndarray, after: np.ndarray, changed: np.ndarray | None = None) -> np.ndarray:
         """Find nodes whose moves flip a quad or take the boundary out of its band, (k,) int.
 
+        Where none of the nodes outside the band has moved, all that slide are named.
+
         Parameters
         ----------
         before, after : (n, 3) float64

@@ -43,27 +43,23 @@ def optimise_shape(energy: MeshEnergy, points: np.ndarray, intermediate: bool) -
     Step
         After each step of all nodes.
     """
-    steps = _minimise(energy, points, intermediate)
-    del points  # large meshes have no memory for those before the first step
-    reached = yield from steps
-    energy.release_workspace()
-    return reached
-
-
-def _minimise(energy: MeshEnergy, points: np.ndarray, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
-    """Take the steps of `optimise_shape`."""
     direction = TruncatedNewton(TruncatedNewtonConfig(deflated=True))
     x = energy.to_edge_units(points)
     values: list[float] = []
     before = 0.0
-    while True:
+    outcome: Outcome | None = None
+    while outcome is None:
         descent = newton_step(energy, x, 0.0, direction)
         if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate)):
+            # Slope and energy are 0 where all hexes are cubes.
+            converged = descent is not None and -descent.slope <= ROUNDING * descent.value
+            outcome = Outcome.CONVERGED if converged else Outcome.NO_DESCENT
             break
         values.append(descent.value - energy.cube_value)
         judged = len(values) > STEPS and (intermediate or energy.limits_moves)
         if judged and values[-1 - STEPS] - values[-1] < NEGLIGIBLE_FALL * values[-1]:
-            return ShapeOptimum(points, Outcome.NO_IMPROVEMENT if energy.limits_moves else Outcome.CONVERGED)
+            outcome = Outcome.NO_IMPROVEMENT if energy.limits_moves else Outcome.CONVERGED
+            break
         x, slope = descent.x, -descent.slope if descent.backtracks == 0 else 0.0
         # A slope that falls once more as much as it did counts as zero.
         is_last = intermediate and 0 < slope**2 < ROUNDING * descent.value * before
@@ -72,8 +68,6 @@ def _minimise(energy: MeshEnergy, points: np.ndarray, intermediate: bool) -> Gen
         del descent  # large meshes have no memory for its direction
         points = energy.to_mesh_units(x)
         yield Step(points, diagnostics, intermediate=intermediate, norm=energy.norm)
-        if is_last:
-            return ShapeOptimum(points, Outcome.CONVERGED)
-    # Slope and energy are 0 where all hexes are cubes.
-    converged = descent is not None and -descent.slope <= ROUNDING * descent.value
-    return ShapeOptimum(points, Outcome.CONVERGED if converged else Outcome.NO_DESCENT)
+        outcome = Outcome.CONVERGED if is_last else None
+    energy.release_workspace()
+    return ShapeOptimum(points, outcome)

@@ -15,7 +15,7 @@ from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import omission_message
 from hexmend.smoothers.mend.nested.nested_start import NESTED, NestedConfig, nested_start
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, optimise_shape
-from hexmend.smoothers.mend.untangling import Untangled, untangle
+from hexmend.smoothers.mend.untangling import untangle
 
 
 class ShapeStages:
@@ -43,11 +43,11 @@ class ShapeStages:
         energy = energy.with_objective(energy.norm, locked)
         start = yield from nested_start(mesh, energy, self.coarse_shape, self._nested)
         mesh = mesh if start is mesh.points else mesh.with_points(start)
-        untangled = yield from self._untangle(mesh, energy, locked)
+        untangled = yield from untangle(mesh, energy.without_size(), locked)
         left = untangled.left(locked, energy)
         if left and energy.norm.p < SQUARES.p:
             # Squares weigh the worst hexes more, and untangle some meshes that sums do not.
-            again = yield from self._untangle(mesh, energy.with_objective(SQUARES, locked), locked)
+            again = yield from untangle(mesh, energy.with_objective(SQUARES, locked).without_size(), locked)
             untangled = again if again.left(locked, energy) < left else untangled
         points, omitted = untangled.points, untangled.omitted
         if energy.ranks.any(omitted) and not self.settings.slides_on(mesh):
@@ -59,12 +59,9 @@ class ShapeStages:
         return (yield from steps)
 
     def coarse_shape(self, mesh: Mesh, energy: MeshEnergy) -> Generator[Step, None, np.ndarray]:
-        """Go to the optimum of shape of the coarse mesh behind a refinement, with the first p."""
+        """Go to the optimum of shape of the coarse mesh behind a refinement."""
         stages = ShapeStages(self.settings, self._nested.of_coarse_mesh())
         return (yield from stages._shape(mesh, energy, True)).points
-
-    def _untangle(self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray) -> Generator[Step, None, Untangled]:
-        return (yield from untangle(mesh, energy.without_size(), locked))
 
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Go from points (n, 3), or a coarse optimum, to the optimum of shape without inverted corners there."""
