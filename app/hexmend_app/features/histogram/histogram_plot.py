@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import zip_longest
+from typing import Any
 
 import numpy as np
 import pyqtgraph as pg
@@ -47,6 +48,7 @@ class HistogramPlot(QWidget):
         self.plot.setMinimumHeight(110)
         self.plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 2)
         self.histogram: Histogram | None = None
+        self._axes: tuple[Any, ...] = ()  # what the axes show
         self._bars = [pg.BarGraphItem(x0=[], x1=[], y0=[], y1=[], pen=None)]
         self._lines = [pg.PlotCurveItem() for _ in range(2 + len(KEPT))]
         self.number = pg.TextItem(anchor=(0, 0))
@@ -81,13 +83,10 @@ class HistogramPlot(QWidget):
                 item.setVisible(one is not None)
                 if one is not None:
                     self._draw_series(item, one)
-        left, bottom = self.plot.getAxis("left"), self.plot.getAxis("bottom")
-        left.setLogMode(x=False, y=histogram.log)
-        left.setLabel(histogram.ylabel)
-        bottom.setLabel(histogram.xlabel)
-        bottom.setTicks([histogram.ticks])
-        for axis in (left, bottom):
-            axis.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized
+        axes = histogram.log, histogram.ylabel, histogram.xlabel, tuple(histogram.ticks)
+        if axes != self._axes:  # pyqtgraph draws axes anew after each call
+            self._axes = axes
+            self._set_axes(histogram)
         floor, top = self._ends
         self.plot.setXRange(*histogram.extent, padding=0)
         self.plot.setYRange(floor, top, padding=0)
@@ -98,6 +97,15 @@ class HistogramPlot(QWidget):
         if column is not None:
             self.number.setText(tr("{count:,} inverted", count=inverted))
             self.number.setPos(QPointF(histogram.extent[0], top))
+
+    def _set_axes(self, histogram: Histogram) -> None:
+        left, bottom = self.plot.getAxis("left"), self.plot.getAxis("bottom")
+        left.setLogMode(x=False, y=histogram.log)
+        left.setLabel(histogram.ylabel)
+        bottom.setLabel(histogram.xlabel)
+        bottom.setTicks([histogram.ticks])
+        for axis in (left, bottom):
+            axis.resizeEvent()  # centres the label, which pyqtgraph does only when the plot is resized
 
     @property
     def _ends(self) -> np.ndarray:
