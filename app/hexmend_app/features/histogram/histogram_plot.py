@@ -96,7 +96,7 @@ class HistogramPlot(QWidget):
         self.number.setVisible(column is not None)
         if column is not None:
             self.number.setText(tr("{count:,} inverted", count=inverted))
-            self.number.setPos(QPointF(histogram.extent[0], top))
+            self.number.setPos(QPointF(column[1], top))
 
     def _set_axes(self, histogram: Histogram) -> None:
         left, bottom = self.plot.getAxis("left"), self.plot.getAxis("bottom")
