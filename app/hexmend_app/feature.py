@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu, QWidget
@@ -166,9 +166,6 @@ class Feature(QObject):
     host : Host
     """
 
-    #: True if `refresh` is called for each iteration of an active run too.
-    shows_iterations: ClassVar[bool] = False
-
     def __init__(self, host: Host):
         super().__init__(host.dialog_parent)
         self.host = host
@@ -201,12 +198,7 @@ class Feature(QObject):
         """Show the current session; called once for all changes in a turn of the event loop."""
 
     def refresh_iteration(self) -> None:
-        """Show the newest iteration of an active run; by default, refresh if the feature declares `shows_iterations`.
-
-        Called instead of `refresh`, up to thirty times a second, while nothing else changes.
-        """
-        if self.shows_iterations:
-            self.refresh()
+        """Draw the newest iteration of an active run, up to thirty times a second; `refresh` follows less often."""
 
     def program_started(self) -> None:
         """Start tasks of the program, rather than of every window; called once all features are built."""

@@ -162,6 +162,8 @@ class Canvas(CameraView):
 
     def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
         """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
+        if h is None and self._selected[0] is None:
+            return
         self._selected = h, corners
         self.viewport.overlay_layers.selection.select(h, corners, node)
         self._select_in_other_views()

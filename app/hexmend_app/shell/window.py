@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from time import monotonic
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
@@ -27,8 +26,11 @@ if TYPE_CHECKING:
     from hexmend_app.shell.menus import Menus
     from hexmend_app.state.session.session import Session
 
-#: Seconds between refreshes of the menus while iterations are shown.
-_MENUS_PERIOD = 0.5
+#: Milliseconds within which everything but the view shows an iteration.
+_DELAY = 200
+
+#: Layouts around a label, each of which asks the next one; they come before painting, so that all is painted once.
+_NESTED_LAYOUTS = 4
 
 
 class Window(QMainWindow):
@@ -73,10 +75,9 @@ class Window(QMainWindow):
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
         self._menus: Menus | None = None
-        self._iteration_only = True  # nothing else has changed
-        self._timer = QTimer(self, singleShot=True, interval=0)  # combines the changes in a turn of the event loop
-        self._timer.timeout.connect(lambda: self.refresh_iteration() if self._iteration_only else self.refresh())
-        self._menus_shown = 0.0
+        self._timer, self._iteration_timer = (QTimer(self, singleShot=True) for _ in range(2))
+        self._timer.timeout.connect(self.refresh)
+        self._iteration_timer.timeout.connect(self.refresh_iteration)
         screen = self.screen().availableGeometry()
         self.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
         self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry
@@ -94,7 +95,7 @@ class Window(QMainWindow):
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
         for signal in (self.docks.changed, self.messages.changed):
             signal.connect(self.refresh_soon)
-        self.session.changed.connect(lambda: self._refresh_soon(iteration_only=self.session.run.iterating))
+        self.session.changed.connect(self._on_changed)
         self.docks.reserve(settings.PANELS.get())
         self.refresh()
 
@@ -221,20 +222,25 @@ class Window(QMainWindow):
 
     def refresh_soon(self) -> None:
         """Request a refresh of everything, once, in the next turn of the event loop."""
-        self._refresh_soon(iteration_only=False)
+        self._timer.start(0)
 
-    def _refresh_soon(self, iteration_only: bool) -> None:
-        self._iteration_only = self._iteration_only and iteration_only
-        self._timer.start()
+    def _on_changed(self) -> None:
+        """Draw an iteration at once and show its figures a little later; show any other change at once."""
+        if not self.session.run.iterating:
+            self.refresh_soon()
+            return
+        self._iteration_timer.start(0)
+        if not self._timer.isActive():
+            self._timer.start(_DELAY)
 
     def refresh(self) -> None:
         """Show the current state of the session."""
         self._timer.stop()
-        self._iteration_only = True
         if self.session is None:
             return
         call_each(self.features.values(), lambda feature: feature.refresh())
-        self._refresh_menus()
+        if self._menus is not None:
+            self._menus.refresh(self.session.document.is_open)
         # Esc dismisses messages first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and not self.messages.takes_escape else "")
         document = self.session.document
@@ -242,18 +248,12 @@ class Window(QMainWindow):
             self._counts.refresh(self.session)
         self.setWindowTitle(tr("{name}[*] – Hexmend", name=document.name) if document.is_open else tr("Hexmend"))
         self.setWindowModified(self.session.modified)
+        for _ in range(_NESTED_LAYOUTS):
+            QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
     def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
+        """Draw the newest iteration of a run."""
         call_each(self.features.values(), lambda feature: feature.refresh_iteration())
-        if monotonic() - self._menus_shown > _MENUS_PERIOD:
-            self._refresh_menus()
-        self._counts.refresh(self.session)
-
-    def _refresh_menus(self) -> None:
-        if self._menus is not None:
-            self._menus.refresh(self.session.document.is_open)
-            self._menus_shown = monotonic()
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
         """Open the context menu of the view."""
@@ -299,7 +299,8 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.close()
         wait_for_dropped()
-        self._timer.stop()
+        for timer in (self._timer, self._iteration_timer):
+            timer.stop()
         event.accept()
 
     def changeEvent(self, event: QEvent) -> None:

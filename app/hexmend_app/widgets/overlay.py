@@ -41,7 +41,7 @@ class Overlay(QObject):
         self.fit()
 
     def fit(self) -> None:
-        """Set size and position of the widget, and put it on top."""
+        """Set size and position of the widget."""
         self._widget.ensurePolished()
         space = self._over.size() - QSize(2 * MARGIN, 2 * MARGIN)
         size = self._widget.sizeHint().boundedTo(space).expandedTo(QSize(1, 1))
@@ -49,7 +49,6 @@ class Overlay(QObject):
         x, y = self._place
         corner = QPoint(MARGIN + round(x * free.width()), MARGIN + round(y * free.height()))
         self._widget.setGeometry(QRect(corner, size))
-        self._widget.raise_()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Update the geometry, and keep the mouse from the widget below."""
@@ -59,6 +58,7 @@ class Overlay(QObject):
         ):
             self.fit()
             if kind == QEvent.Type.Show and watched is self._widget:
+                self._widget.raise_()
                 self._insert_in_tab_order()
         elif kind in _MOUSE_EVENTS and watched is self._widget:
             event.accept()

@@ -119,12 +119,13 @@ def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(window, qtbot
     assert calls == [1]
 
 
-def test_a_new_iteration_refreshes_only_features_that_show_it(window, qtbot, monkeypatch):
-    calls = []
-    for name in ("timeline", "help"):
-        feature = window.features[name]
-        monkeypatch.setattr(feature, "refresh", lambda name=name: calls.append(name))
-    window.refresh_iteration()
-    assert calls == ["timeline"]
-    window.refresh()
-    assert sorted(calls) == ["help", "timeline", "timeline"]
+def test_an_iteration_is_drawn_at_once_and_its_figures_follow(window, qtbot, monkeypatch):
+    calls, feature = [], window.features["help"]
+    monkeypatch.setattr(feature, "refresh_iteration", lambda: calls.append("view"))
+    monkeypatch.setattr(feature, "refresh", lambda: calls.append("everything"))
+    monkeypatch.setattr(window.session.run, "iterating", True)
+    for count in (1, 2):
+        window.session.changed.emit()
+        qtbot.waitUntil(lambda count=count: calls.count("view") == count)
+    qtbot.waitUntil(lambda: "everything" in calls)
+    assert calls == ["view", "view", "everything"]

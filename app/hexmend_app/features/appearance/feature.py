@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 class FeatureAppearance(Feature):
     """Draws the session's mesh, and applies the colour panel to its appearance."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
@@ -72,6 +70,11 @@ class FeatureAppearance(Feature):
         canvas.colour_bar.special_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
+        """Draw the current mesh, and show the present look in the panel."""
+        self.refresh_iteration()
+        self._show_panel()
+
+    def refresh_iteration(self) -> None:
         """Draw the current mesh; if that fails, clear the view rather than show the previous mesh."""
         document = self.session.document
         if self.canvas is not None and document.is_open:
@@ -81,7 +84,6 @@ class FeatureAppearance(Feature):
                 if not self.canvas.shows(document.now.mesh):
                     self.canvas.clear()
                 raise
-        self._show_panel()
 
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)

@@ -30,8 +30,6 @@ TICKED = ("laplacian", "getme", "local-sd", "mend")
 class FeatureCompare(Feature):
     """Runs comparisons, and shows their results and those of all runs in a table and in views."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session

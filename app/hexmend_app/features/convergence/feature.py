@@ -29,8 +29,6 @@ _PERIOD = 100
 class FeatureConvergence(Feature):
     """Plots the values of all runs and sends clicks in the charts to the timeline."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session

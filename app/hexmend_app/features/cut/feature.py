@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 class FeatureCut(Feature):
     """Connects the cut panels and the handles in the view with the appearance."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view

@@ -34,8 +34,6 @@ _LEFT = {NodeClass.CORNER: "its corner", NodeClass.CURVE: "its curve", NodeClass
 class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session

@@ -35,8 +35,6 @@ class FeatureHistogram(Feature):
     that the remaining hexes can be coloured by other metrics.
     """
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view

@@ -97,6 +97,7 @@ class HistogramPlot(QWidget):
         if column is not None:
             self.number.setText(tr("{count:,} inverted", count=inverted))
             self.number.setPos(QPointF(column[1], top))
+        self.plot.scene().prepareForPaint()  # otherwise pyqtgraph moves its items while it paints, and paints again
 
     def _set_axes(self, histogram: Histogram) -> None:
         left, bottom = self.plot.getAxis("left"), self.plot.getAxis("bottom")

@@ -14,8 +14,6 @@ from hexmend_app.translation import tr
 class FeatureMovement(Feature):
     """Shows the displacement of the nodes since a reference state."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._document, view = self.session.document, self.session.view

@@ -18,8 +18,6 @@ from hexmend_app.widgets.overlay import Overlay
 class FeatureQuality(Feature):
     """Shows the quality of the mesh as it was opened and as it is now."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._seen = ChangeTracker()

@@ -18,8 +18,6 @@ from hexmend_app.widgets.dialogs.questions import ask_to_open, ask_to_save
 class FeatureRecipe(Feature):
     """Edits, loads, saves and runs a recipe, and marks the active stage."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._draft, self._smoothing = self.session.recipe_draft, self.session.run

@@ -22,8 +22,6 @@ STEP = 0.02
 class FeatureSideViews(Feature):
     """Shows states of the mesh in side views."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._views, self._snapshots = self.session.side_views, self.session.snapshots

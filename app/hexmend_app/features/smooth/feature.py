@@ -40,8 +40,6 @@ _SCALED_JACOBIAN = "scaled-jacobian"
 class FeatureSmooth(Feature):
     """Starts, pauses and stops runs, and shows their progress."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session

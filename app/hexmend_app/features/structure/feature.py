@@ -16,8 +16,6 @@ from hexmend_app.translation import tr
 class FeatureStructure(Feature):
     """Shows and hides the layers of the mesh structure, with counts."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 class FeatureTags(Feature):
     """Adds, removes and renames tags of hexes."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session, commands = self.session, self.session.commands

@@ -28,8 +28,6 @@ _NAMED = 3
 class FeatureTimeline(Feature):
     """Navigates in the iterations of runs, and starts branches."""
 
-    shows_iterations = True
-
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session

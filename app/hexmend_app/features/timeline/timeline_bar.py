@@ -132,9 +132,9 @@ class TimelineBar(QWidget):
             self._at.setText("–" if number is None else self._labels[number])
         else:
             self._at.setText(tr("{number} of {newest}", number=shown, newest=newest) if self.runs.count() else "")
-        # the width of the longest text keeps the slider in place under the pointer
+        # The size of the longest text keeps the slider in place under the pointer, and needs no layout for each number.
         longest = max(self._labels, key=len) if self._labels else f"{max(newest, 999)} of {max(newest, 999)}"
-        self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(longest))
+        self._at.setFixedSize(self._at.fontMetrics().size(0, longest))
 
     def set_settings(self, limit: int, speed: float) -> None:
         """Show the memory limit in MB and the playback speed in iterations per second."""
