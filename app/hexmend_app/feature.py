@@ -195,10 +195,10 @@ class Feature(QObject):
         """Connect to the 3D view; called once when it exists."""
 
     def refresh(self) -> None:
-        """Show the current session; called once for all changes in a turn of the event loop."""
+        """Show the current session; called once for all changes in a turn of the event loop.
 
-    def refresh_iteration(self) -> None:
-        """Draw the newest iteration of an active run, up to thirty times a second; `refresh` follows less often."""
+        Iterations of an active run are followed five times a second.
+        """
 
     def program_started(self) -> None:
         """Start tasks of the program, rather than of every window; called once all features are built."""

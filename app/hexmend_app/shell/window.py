@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from hexmend_app.shell.menus import Menus
     from hexmend_app.state.session.session import Session
 
-#: Milliseconds within which everything but the view shows an iteration.
+#: Milliseconds within which the panels show an iteration.
 _DELAY = 200
 
 #: Layouts around a label, each of which asks the next one; they come before painting, so that all is painted once.
@@ -75,9 +75,8 @@ class Window(QMainWindow):
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
         self._menus: Menus | None = None
-        self._timer, self._iteration_timer = (QTimer(self, singleShot=True) for _ in range(2))
+        self._timer = QTimer(self, singleShot=True)  # combines changes
         self._timer.timeout.connect(self.refresh)
-        self._iteration_timer.timeout.connect(self.refresh_iteration)
         screen = self.screen().availableGeometry()
         self.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
         self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry
@@ -225,12 +224,10 @@ class Window(QMainWindow):
         self._timer.start(0)
 
     def _on_changed(self) -> None:
-        """Draw an iteration at once and show its figures a little later; show any other change at once."""
+        """Request a refresh: after an iteration, which is drawn already, a little later than after other changes."""
         if not self.session.run.iterating:
             self.refresh_soon()
-            return
-        self._iteration_timer.start(0)
-        if not self._timer.isActive():
+        elif not self._timer.isActive():
             self._timer.start(_DELAY)
 
     def refresh(self) -> None:
@@ -250,10 +247,6 @@ class Window(QMainWindow):
         self.setWindowModified(self.session.modified)
         for _ in range(_NESTED_LAYOUTS):
             QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
-
-    def refresh_iteration(self) -> None:
-        """Draw the newest iteration of a run."""
-        call_each(self.features.values(), lambda feature: feature.refresh_iteration())
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
         """Open the context menu of the view."""
@@ -299,8 +292,7 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.close()
         wait_for_dropped()
-        for timer in (self._timer, self._iteration_timer):
-            timer.stop()
+        self._timer.stop()
         event.accept()
 
     def changeEvent(self, event: QEvent) -> None:

@@ -11,6 +11,7 @@ from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.feature import MENUS
 from hexmend_app.picture import Box, Cut, Plane
 from hexmend_app.shell.keys import as_markdown
+from hexmend_app.state.mesh.document import State
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
@@ -119,13 +120,14 @@ def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(window, qtbot
     assert calls == [1]
 
 
-def test_an_iteration_is_drawn_at_once_and_its_figures_follow(window, qtbot, monkeypatch):
-    calls, feature = [], window.features["help"]
-    monkeypatch.setattr(feature, "refresh_iteration", lambda: calls.append("view"))
-    monkeypatch.setattr(feature, "refresh", lambda: calls.append("everything"))
-    monkeypatch.setattr(window.session.run, "iterating", True)
-    for count in (1, 2):
-        window.session.changed.emit()
-        qtbot.waitUntil(lambda count=count: calls.count("view") == count)
-    qtbot.waitUntil(lambda: "everything" in calls)
-    assert calls == ["view", "view", "everything"]
+def test_an_iteration_is_drawn_at_once_and_panels_follow(window, qtbot, monkeypatch):
+    calls, document, run = [], window.session.document, window.session.run
+    monkeypatch.setattr(window.canvas, "draw", lambda frame, live: calls.append("view"))
+    monkeypatch.setattr(window.features["help"], "refresh", lambda: calls.append("panels"))
+    monkeypatch.setattr(run, "iterating", True)
+    for _ in range(2):
+        document.preview(State.of(document.now.mesh))
+        run.iterated.emit(None)
+    assert calls == ["view", "view"]
+    qtbot.waitUntil(lambda: len(calls) > 2)
+    assert calls == ["view", "view", "panels"]

@@ -32,6 +32,7 @@ class FeatureAppearance(Feature):
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
         self.panel.shading.clicked.connect(lambda on: view.change(page={"shading": on}))
         view.metric_wanted.connect(self.panel.choose_metric)
+        self.session.run.iterated.connect(self._show_mesh)
 
     def actions(self) -> Sequence[Action]:
         """Return the action that switches edges."""
@@ -71,10 +72,10 @@ class FeatureAppearance(Feature):
 
     def refresh(self) -> None:
         """Draw the current mesh, and show the present look in the panel."""
-        self.refresh_iteration()
+        self._show_mesh()
         self._show_panel()
 
-    def refresh_iteration(self) -> None:
+    def _show_mesh(self) -> None:
         """Draw the current mesh; if that fails, clear the view rather than show the previous mesh."""
         document = self.session.document
         if self.canvas is not None and document.is_open:
@@ -103,7 +104,7 @@ class FeatureAppearance(Feature):
             self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, *kinds), live)
         if self._seen.changed("handles", look.cut, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)
-        if self._seen.changed("phase", session.run.phase) and session.run.phase is Phase.PAUSED:
+        if self._seen.changed("phase", session.run.phase) and session.run.phase is not Phase.RUNNING:
             self.canvas.rest()
         if self.canvas.isHidden():
             self.canvas.show()
