@@ -8,7 +8,7 @@ through the session.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -176,15 +176,15 @@ class Feature(QObject):
         """The 3D view; None until `canvas_ready` is called."""
         return self.host.canvas
 
-    def actions(self) -> Sequence[Action]:
+    def actions(self) -> Iterable[Action]:
         """Return the actions of this feature."""
         return ()
 
-    def panels(self) -> Sequence[Panel]:
+    def panels(self) -> Iterable[Panel]:
         """Return the panels of this feature."""
         return ()
 
-    def states(self) -> Sequence[StatePart]:
+    def states(self) -> Iterable[StatePart]:
         """Return the parts of the state of this feature that session files store."""
         return ()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import pkgutil
 import sys
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable
 from importlib import import_module
 from importlib.metadata import entry_points
 from typing import TypeVar
@@ -86,13 +86,13 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
 
 
 def declared(
-    features: Iterable[Feature], declarations: Callable[[Feature], Sequence[Declaration]]
+    features: Iterable[Feature], declarations: Callable[[Feature], Iterable[Declaration]]
 ) -> list[Declaration]:
     """List what features declare, such as their actions; a feature that raises is reported and declares nothing."""
     listed: list[Declaration] = []
     for feature in features:
         try:
-            listed += declarations(feature)
+            listed += list(declarations(feature))
         except Exception:  # the others are shown nevertheless
             sys.excepthook(*sys.exc_info())
     return listed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -18,16 +18,18 @@ if TYPE_CHECKING:
     from hexmend_app.shell.panels.docks import Docks
 
 
-def declare_actions(window: Any, panels: Sequence[Panel]) -> list[Action]:
-    """Return the actions of the window, including one for each of the `panels` of all features."""
-    return [*_panel_actions(window.docks, panels), *_layout_actions(window.docks), *_program_actions(window, panels)]
+def declare_actions(window: Any, panels: Sequence[Panel]) -> Iterator[Action]:
+    """Yield the actions of the window, including one for each of the `panels` of all features."""
+    yield from _panel_actions(window.docks, panels)
+    yield from _layout_actions(window.docks)
+    yield from _program_actions(window, panels)
 
 
-def _panel_actions(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
-    """Return the actions that show and close each panel."""
+def _panel_actions(docks: Docks, panels: Sequence[Panel]) -> Iterator[Action]:
+    """Yield the actions that show and close each panel."""
     by_id = {panel.id: panel for panel in panels}
-    return [
-        Action(
+    for id in docks.ids():
+        yield Action(
             id=f"panel_{id}",
             text=by_id[id].title,
             menu="View/Panels" if by_id[id].place is not PanelPlace.BAR else "View",
@@ -37,85 +39,79 @@ def _panel_actions(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
             checked=partial(docks.is_open, id),
             needs_mesh=False,
         )
-        for id in docks.ids()
-    ]
 
 
-def _layout_actions(docks: Docks) -> list[Action]:
-    """Return the actions for all panels together."""
-    return [
-        Action(
-            id="panels",
-            text=tr("Show only the &view"),
-            menu="View",
-            section=3,
-            keys="Ctrl+Tab",
-            icon="fullscreen",
-            help=tr("Hide all panels, or show them again (Tab in the view)."),
-            handle=lambda on: docks.set_hidden(on),
-            checked=lambda: docks.hidden,
-            needs_mesh=False,
-            in_view=True,
-        ),
-        Action(
-            id="drawer",
-            text=tr("Panels &below the view"),
-            menu="View",
-            section=3,
-            keys="Ctrl+B",
-            icon="dock-bottom",
-            help=tr("Open or close the panels below the view."),
-            handle=docks.set_drawer_open,
-            checked=lambda: docks.drawer_open,
-            needs_mesh=False,
-        ),
-        Action(
-            id="reset_layout",
-            text=tr("De&fault layout"),
-            menu="View/Panels",
-            section=9,
-            icon="dock-window",
-            help=tr("Open and dock all panels in their default places."),
-            handle=docks.reset,
-            needs_mesh=False,
-        ),
-    ]
+def _layout_actions(docks: Docks) -> Iterator[Action]:
+    """Yield the actions for all panels together."""
+    yield Action(
+        id="panels",
+        text=tr("Show only the &view"),
+        menu="View",
+        section=3,
+        keys="Ctrl+Tab",
+        icon="fullscreen",
+        help=tr("Hide all panels, or show them again (Tab in the view)."),
+        handle=lambda on: docks.set_hidden(on),
+        checked=lambda: docks.hidden,
+        needs_mesh=False,
+        in_view=True,
+    )
+    yield Action(
+        id="drawer",
+        text=tr("Panels &below the view"),
+        menu="View",
+        section=3,
+        keys="Ctrl+B",
+        icon="dock-bottom",
+        help=tr("Open or close the panels below the view."),
+        handle=docks.set_drawer_open,
+        checked=lambda: docks.drawer_open,
+        needs_mesh=False,
+    )
+    yield Action(
+        id="reset_layout",
+        text=tr("De&fault layout"),
+        menu="View/Panels",
+        section=9,
+        icon="dock-window",
+        help=tr("Open and dock all panels in their default places."),
+        handle=docks.reset,
+        needs_mesh=False,
+    )
 
 
-def _program_actions(window: Any, panels: Sequence[Panel]) -> list[Action]:
-    """Return the actions command palette, keys and quit."""
-    return [
-        Action(
-            id="commands",
-            text=tr("&Commands…"),
-            menu="Help",
-            keys="Ctrl+Shift+P",
-            icon="magnify",
-            help=tr("Find a command, panel, method or metric by name."),
-            needs_mesh=False,
-            handle=lambda: _show_palette(window, panels),
-        ),
-        Action(
-            id="keys",
-            text=tr("&Mouse and keys"),
-            menu="Help",
-            keys="F1",
-            icon="mouse",
-            help=tr("List the mouse controls of the view and all keys."),
-            needs_mesh=False,
-            handle=lambda: _show_keys(window),
-        ),
-        Action(
-            id="quit",
-            text=tr("&Quit"),
-            menu="File",
-            section=9,
-            keys="Ctrl+Q",
-            help=tr("Close the window."),
-            needs_mesh=False,
-            handle=window.close,
-        ),
-    ]
+def _program_actions(window: Any, panels: Sequence[Panel]) -> Iterator[Action]:
+    """Yield the actions command palette, keys and quit."""
+    yield Action(
+        id="commands",
+        text=tr("&Commands…"),
+        menu="Help",
+        keys="Ctrl+Shift+P",
+        icon="magnify",
+        help=tr("Find a command, panel, method or metric by name."),
+        needs_mesh=False,
+        handle=lambda: _show_palette(window, panels),
+    )
+    yield Action(
+        id="keys",
+        text=tr("&Mouse and keys"),
+        menu="Help",
+        keys="F1",
+        icon="mouse",
+        help=tr("List the mouse controls of the view and all keys."),
+        needs_mesh=False,
+        handle=lambda: _show_keys(window),
+    )
+    yield Action(
+        id="quit",
+        text=tr("&Quit"),
+        menu="File",
+        section=9,
+        keys="Ctrl+Q",
+        help=tr("Close the window."),
+        needs_mesh=False,
+        handle=window.close,
+    )
 
 
 def _show_palette(window: Any, panels: Sequence[Panel]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
@@ -34,36 +34,32 @@ class FeatureAppearance(Feature):
         view.metric_wanted.connect(self.panel.choose_metric)
         self.session.run.iterated.connect(self._show_mesh)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the action that switches edges."""
+    def actions(self) -> Iterable[Action]:
+        """Yield the action that switches edges."""
         view = self._view
-        return (
-            Action(
-                id="edges",
-                text=tr("&Edges"),
-                menu="View",
-                section=1,
-                keys="E",
-                icon="grid",
-                help=tr("Show the edges of the hexes."),
-                tool=tr("Edges"),
-                handle=lambda on: view.change(lines={"edges": None if on else 0.0}),
-                checked=lambda: view.look.lines.shown,
-            ),
+        yield Action(
+            id="edges",
+            text=tr("&Edges"),
+            menu="View",
+            section=1,
+            keys="E",
+            icon="grid",
+            help=tr("Show the edges of the hexes."),
+            tool=tr("Edges"),
+            handle=lambda on: view.change(lines={"edges": None if on else 0.0}),
+            checked=lambda: view.look.lines.shown,
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of colours."""
-        return (
-            Panel(
-                id="look",
-                title=tr("Look"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Look"),
-                order=20,
-                help=tr("Metric or material, map and range of the colours, neutral colours, shading."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of colours."""
+        yield Panel(
+            id="look",
+            title=tr("Look"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Look"),
+            order=20,
+            help=tr("Metric or material, map and range of the colours, neutral colours, shading."),
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart, always
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_shapes import Plane
@@ -17,6 +17,7 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
+    from hexmend_app.canvas.camera_animation import CameraAnimation
     from hexmend_app.canvas.canvas import Canvas
 
 #: Direction, id, text, keys, icon and text in the tool bar.
@@ -30,6 +31,16 @@ _DIRECTIONS = (
     ("-z", "view_minus_z", "From −Z", "6", "", ""),
 )
 
+#: Other movements: id, text, keys and help.
+_MOVES = (
+    ("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the plane."),
+    ("roll_left", "Roll &left", "Shift+[", "Rotate the view by {angle}° counter-clockwise."),
+    ("roll_right", "Roll ri&ght", "Shift+]", "Rotate the view by {angle}° clockwise."),
+    ("view_back", "Previous &view", "Alt+Left", "Return to the previous camera position."),
+    ("view_forward", "Ne&xt view", "Alt+Right", "Go forward to the next camera position."),
+    ("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for another window or hexmend render."),
+    ("paste_camera", "&Paste camera", "", "Apply the camera from the clipboard."),
+)
 #: Step of a roll in degrees.
 _ROLL = 15
 
@@ -46,68 +57,50 @@ class FeatureCamera(Feature):
         self.menu.delete_requested.connect(self._cameras.remove)
         self.session.selection.visited.connect(self._fly)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that move, copy, paste and save the camera."""
-        return (
-            Action(
-                id="fit",
-                text=tr("&Fit"),
-                menu="View",
-                keys="F",
-                icon="arrow-expand-all",
-                help=tr("Fit the visible mesh to the view."),
-                tool=tr("Fit"),
-                handle=lambda: self.canvas.fit(),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that move, copy, paste and save the camera."""
+        yield Action(
+            id="fit",
+            text=tr("&Fit"),
+            menu="View",
+            keys="F",
+            icon="arrow-expand-all",
+            help=tr("Fit the visible mesh to the view."),
+            tool=tr("Fit"),
+            handle=lambda: self.canvas.fit(),
+            enabled=self._ready,
+            in_view=True,
+        )
+        yield from self._directions()
+        yield from self._moves()
+        for axis in "xyz":
+            yield Action(
+                id=f"up_{axis}",
+                text=tr("{upper} &up", upper=axis.upper()) if axis == "z" else tr("{upper} up", upper=axis.upper()),
+                menu="View/Up",
+                help=tr("Use the {upper} axis as the vertical axis of the standard views.", upper=axis.upper()),
+                handle=lambda on, axis=axis: self.canvas.set_up(axis),
                 enabled=self._ready,
-                in_view=True,
-            ),
-            *self._directions(),
-            self._move("face", tr("Face cutting pl&ane"), "Shift+C", tr("Look along the normal of the plane."),
-                       lambda: self.canvas.face(self._plane), lambda: self._plane is not None, in_view=True),
-            self._move("roll_left", tr("Roll &left"), "Shift+[", tr("Rotate the view by {angle}° counter-clockwise.",
-                       angle=_ROLL), lambda: self.canvas.roll(_ROLL)),
-            self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
-                       angle=_ROLL), lambda: self.canvas.roll(-_ROLL)),
-            self._move("view_back", tr("Previous &view"), "Alt+Left", tr("Return to the previous camera position."),
-                       lambda: self.canvas.camera_animation.go_back(),
-                       lambda: self.canvas.camera_animation.can_go_back, in_view=True),
-            self._move("view_forward", tr("Ne&xt view"), "Alt+Right", tr("Go forward to the next camera position."),
-                       lambda: self.canvas.camera_animation.go_forward(),
-                       lambda: self.canvas.camera_animation.can_go_forward),
-            *(
-                Action(
-                    id=f"up_{axis}",
-                    text=tr("{upper} &up", upper=axis.upper()) if axis == "z" else tr("{upper} up", upper=axis.upper()),
-                    menu="View/Up",
-                    help=tr("Use the {upper} axis as the vertical axis of the standard views.", upper=axis.upper()),
-                    handle=lambda on, axis=axis: self.canvas.set_up(axis),
-                    enabled=self._ready,
-                    checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
-                    exclusive=True,
-                )
-                for axis in "xyz"
-            ),
-            self._move("copy_camera", tr("&Copy camera"), "", tr("Copy the camera to the clipboard, for another window "
-                       "or hexmend render."), self.copy, lambda: self._draws),
-            self._move("paste_camera", tr("&Paste camera"), "", tr("Apply the camera from the clipboard."), self.paste),
-            *self._saved(),
-            Action(
-                id="parallel",
-                text=tr("&Parallel projection"),
-                menu="View/Camera",
-                section=3,
-                keys="P",
-                help=tr("Use parallel instead of perspective projection."),
-                handle=lambda on: self.canvas.set_parallel(on),
-                enabled=self._ready,
-                checked=lambda: self.canvas is not None and self.canvas.parallel,
-            ),
-        )  # fmt: skip
+                checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
+                exclusive=True,
+            )
+        yield from self._saved()
+        yield Action(
+            id="parallel",
+            text=tr("&Parallel projection"),
+            menu="View/Camera",
+            section=3,
+            keys="P",
+            help=tr("Use parallel instead of perspective projection."),
+            handle=lambda on: self.canvas.set_parallel(on),
+            enabled=self._ready,
+            checked=lambda: self.canvas is not None and self.canvas.parallel,
+        )
 
-    def _directions(self) -> Iterator[Action]:
+    def _directions(self) -> Iterable[Action]:
         """Yield the actions that look along an axis or from a corner."""
-        yield from (
-            Action(
+        for name, id, text, keys, icon, tool in _DIRECTIONS:
+            yield Action(
                 id=id,
                 text=tr(text),
                 menu="View/Camera",
@@ -120,29 +113,55 @@ class FeatureCamera(Feature):
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
             )
-            for name, id, text, keys, icon, tool in _DIRECTIONS
-        )
 
-    def _saved(self) -> Sequence[Action]:
-        """Return the action that saves the camera; the menu of saved cameras follows it."""
-        return (
-            Action(
-                id="keep_camera",
-                text=tr("&Save camera as…"),
+    def _moves(self) -> Iterable[Action]:
+        """Yield the actions that turn the camera, go back and forward, copy and paste."""
+
+        def animation() -> CameraAnimation:
+            return self.canvas.camera_animation
+
+        # What each does, and when it is enabled once the view exists.
+        moves: dict[str, tuple[Callable[[], object], Callable[[], bool]]] = {
+            "face": (lambda: self.canvas.face(self._plane), lambda: self._plane is not None),
+            "roll_left": (lambda: self.canvas.roll(_ROLL), always),
+            "roll_right": (lambda: self.canvas.roll(-_ROLL), always),
+            "view_back": (lambda: animation().go_back(), lambda: animation().can_go_back),
+            "view_forward": (lambda: animation().go_forward(), lambda: animation().can_go_forward),
+            "copy_camera": (self.copy, lambda: self._draws),
+            "paste_camera": (self.paste, always),
+        }
+        for id, text, keys, help in _MOVES:
+            handle, enabled = moves[id]
+            yield Action(
+                id=id,
+                text=tr(text),
                 menu="View/Camera",
-                section=2,
-                keys="Ctrl+Shift+K",
-                icon="bookmark-plus-outline",
-                help=tr("Save the camera under a name, for views, pictures and the session."),
-                handle=self.ask_name,
-                enabled=lambda: self._draws,
-                submenu=self.menu,
-            ),
+                section=1,
+                keys=keys,
+                help=tr(help, angle=_ROLL),
+                handle=handle,
+                enabled=lambda enabled=enabled: self._ready() and enabled(),
+                in_view=id in ("face", "view_back"),
+            )
+
+    def _saved(self) -> Iterable[Action]:
+        """Yield the action that saves the camera; the menu of saved cameras follows it."""
+        yield Action(
+            id="keep_camera",
+            text=tr("&Save camera as…"),
+            menu="View/Camera",
+            section=2,
+            keys="Ctrl+Shift+K",
+            icon="bookmark-plus-outline",
+            help=tr("Save the camera under a name, for views, pictures and the session."),
+            handle=self.ask_name,
+            enabled=lambda: self._draws,
+            submenu=self.menu,
         )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the pose of the camera."""
-        return (StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore),)
+    def states(self) -> Iterable[StatePart]:
+        """Yield the pose of the camera."""
+        yield StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore)
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Refresh when the camera history changes."""
@@ -159,29 +178,6 @@ class FeatureCamera(Feature):
                 self.canvas.camera_animation.remember()
             else:
                 self.canvas.camera_animation.fly_to_bookmark()
-
-    def _move(
-        self,
-        id: str,
-        text: str,
-        keys: str,
-        help: str,
-        handle: Callable[[], object],
-        enabled: Callable[[], bool] = lambda: True,
-        in_view: bool = False,
-    ) -> Action:
-        """Return an action that needs the 3D view."""
-        return Action(
-            id=id,
-            text=text,
-            menu="View/Camera",
-            section=1,
-            keys=keys,
-            help=help,
-            handle=handle,
-            enabled=lambda: self._ready() and enabled(),
-            in_view=in_view,
-        )
 
     def copy(self) -> None:
         """Copy the camera to the clipboard in the format of `hexmend render --camera`."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -41,52 +41,48 @@ class FeatureCompare(Feature):
         panel.use_requested.connect(self._use)
         panel.save_button.clicked.connect(self.ask)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that run and cancel a comparison."""
-        return (
-            Action(
-                id="compare",
-                text=tr("Co&mpare methods"),
-                menu="Compare",
-                keys="F6",
-                icon="play",
-                help=tr("Run the methods selected in the panel in turn. The mesh does not change."),
-                handle=self.run,
-                enabled=lambda: self._runnable and bool(self.panel.model.ticks),
-            ),
-            Action(
-                id="cancel_comparison",
-                text=tr("&Cancel comparison"),
-                menu="Compare",
-                keys="Shift+F6",
-                icon="stop",
-                help=tr("Stop the comparison after the current iteration and keep the results."),
-                handle=self._comparison.cancel,
-                enabled=lambda: self._comparison.busy and not self._comparison.ending,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that run and cancel a comparison."""
+        yield Action(
+            id="compare",
+            text=tr("Co&mpare methods"),
+            menu="Compare",
+            keys="F6",
+            icon="play",
+            help=tr("Run the methods selected in the panel in turn. The mesh does not change."),
+            handle=self.run,
+            enabled=lambda: self._runnable and bool(self.panel.model.ticks),
+        )
+        yield Action(
+            id="cancel_comparison",
+            text=tr("&Cancel comparison"),
+            menu="Compare",
+            keys="Shift+F6",
+            icon="stop",
+            help=tr("Stop the comparison after the current iteration and keep the results."),
+            handle=self._comparison.cancel,
+            enabled=lambda: self._comparison.busy and not self._comparison.ending,
         )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the selected methods, and the order of the table."""
-        return (
-            StatePart(name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore),
+    def states(self) -> Iterable[StatePart]:
+        """Yield the selected methods, and the order of the table."""
+        yield StatePart(
+            name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore
         )
 
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({id: self.host.action(id) for id in ACTIONS})
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of methods."""
-        return (
-            Panel(
-                id="compare",
-                title=tr("Compare"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=20,
-                help=tr("Results of methods and of all runs in a table and in views, and which of them dominate."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of methods."""
+        yield Panel(
+            id="compare",
+            title=tr("Compare"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=20,
+            help=tr("Results of methods and of all runs in a table and in views, and which of them dominate."),
         )
 
     def refresh(self) -> None:

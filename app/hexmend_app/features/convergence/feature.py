@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from superqt.utils import QSignalThrottler
@@ -46,25 +46,21 @@ class FeatureConvergence(Feature):
         panel.picked.connect(timeline.go_soon)
         panel.head.save.triggered.connect(self.ask)
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the settings of the charts."""
-        return (
-            StatePart(
-                name="charts", data=ChartSettings, to_data=self.panel.head.settings, restore=self.panel.head.restore
-            ),
+    def states(self) -> Iterable[StatePart]:
+        """Yield the settings of the charts."""
+        yield StatePart(
+            name="charts", data=ChartSettings, to_data=self.panel.head.settings, restore=self.panel.head.restore
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of charts."""
-        return (
-            Panel(
-                id="convergence",
-                title=tr("Convergence"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=10,
-                help=tr("Convergence of each run, iteration by iteration."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of charts."""
+        yield Panel(
+            id="convergence",
+            title=tr("Convergence"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=10,
+            help=tr("Convergence of each run, iteration by iteration."),
         )
 
     def refresh(self) -> None:

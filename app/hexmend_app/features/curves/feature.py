@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -24,41 +24,39 @@ class FeatureCurves(Feature):
         self._segments: tuple[object, np.ndarray] = (None, np.empty((0, 2), np.int64))  # of these cells
         self.session.document.mesh_replaced.connect(self._forget_start)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that mark and unmark curves."""
-        return (
-            Action(
-                id="mark_curve",
-                text=tr("&Mark curve"),
-                menu="Hex",
-                section=1,
-                keys="Shift+E",
-                icon="vector-polyline",
-                help=tr("Mark the boundary edges between two selected nodes as a curve, which sliding keeps."),
-                handle=self.mark,
-                enabled=lambda: self._editable and self._on_boundary,
-                title=self._title,
-                in_view=True,
-            ),
-            Action(
-                id="unmark_curve",
-                text=tr("&Unmark curve"),
-                menu="Hex",
-                section=1,
-                help=tr("Remove the marks of the curve through the selected node; undo reverts this."),
-                handle=self.unmark,
-                enabled=lambda: self._editable and self._is_marked,
-                in_view=True,
-            ),
-            Action(
-                id="unmark_all_curves",
-                text=tr("Unmark all curves"),
-                menu="Hex",
-                section=1,
-                help=tr("Remove the marks of all curves; undo reverts this."),
-                handle=lambda: self.session.commands.unmark_curves(),
-                enabled=lambda: self._editable and len(self._marked) > 0,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that mark and unmark curves."""
+        yield Action(
+            id="mark_curve",
+            text=tr("&Mark curve"),
+            menu="Hex",
+            section=1,
+            keys="Shift+E",
+            icon="vector-polyline",
+            help=tr("Mark the boundary edges between two selected nodes as a curve, which sliding keeps."),
+            handle=self.mark,
+            enabled=lambda: self._editable and self._on_boundary,
+            title=self._title,
+            in_view=True,
+        )
+        yield Action(
+            id="unmark_curve",
+            text=tr("&Unmark curve"),
+            menu="Hex",
+            section=1,
+            help=tr("Remove the marks of the curve through the selected node; undo reverts this."),
+            handle=self.unmark,
+            enabled=lambda: self._editable and self._is_marked,
+            in_view=True,
+        )
+        yield Action(
+            id="unmark_all_curves",
+            text=tr("Unmark all curves"),
+            menu="Hex",
+            section=1,
+            help=tr("Remove the marks of all curves; undo reverts this."),
+            handle=lambda: self.session.commands.unmark_curves(),
+            enabled=lambda: self._editable and len(self._marked) > 0,
         )
 
     def mark(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,83 +42,79 @@ class FeatureCut(Feature):
         self.inside.undo_button.clicked.connect(view.undig_last)
         self.inside.restore_button.clicked.connect(lambda: view.change(show={"hidden": frozenset()}))
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that cut, isolate and dig."""
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that cut, isolate and dig."""
         view, selection = self._view, self.session.selection
-        return (
-            Action(
-                id="cut",
-                text=tr("&Cut"),
-                menu="View",
-                section=1,
-                keys="C",
-                icon="contrast-box",
-                help=tr("Cut the mesh open along planes, a box, a slab or a sphere, or by depth."),
-                tool=tr("Cut"),
-                handle=self._switch,
-                checked=lambda: view.look.cut.active,
-                in_view=True,
-            ),
-            Action(
-                id="isolate",
-                text=tr("&Isolate hex"),
-                menu="Hex",
-                section=1,
-                keys="I",
-                help=tr("Show only the selected hex and its neighbours."),
-                handle=lambda: view.isolate((selection.hex,)),
-                enabled=lambda: selection.hex is not None,
-                in_view=True,
-            ),
-            Action(
-                id="dig",
-                text=tr("&Hide hex"),
-                menu="Hex",
-                section=1,
-                keys="Delete",
-                help=tr("Hide the selected hex to see behind it. Ctrl+click in the view does the same."),
-                handle=lambda: self._dig(selection.hex),
-                enabled=lambda: selection.hex is not None,
-                in_view=True,
-            ),
-            Action(
-                id="undig",
-                text=tr("Show &last hidden hex"),
-                menu="Hex",
-                section=1,
-                keys="Backspace",
-                help=tr("Show the hex that was hidden last."),
-                handle=view.undig_last,
-                enabled=lambda: bool(view.look.show.hidden),
-                in_view=True,
-            ),
+        yield Action(
+            id="cut",
+            text=tr("&Cut"),
+            menu="View",
+            section=1,
+            keys="C",
+            icon="contrast-box",
+            help=tr("Cut the mesh open along planes, a box, a slab or a sphere, or by depth."),
+            tool=tr("Cut"),
+            handle=self._switch,
+            checked=lambda: view.look.cut.active,
+            in_view=True,
+        )
+        yield Action(
+            id="isolate",
+            text=tr("&Isolate hex"),
+            menu="Hex",
+            section=1,
+            keys="I",
+            help=tr("Show only the selected hex and its neighbours."),
+            handle=lambda: view.isolate((selection.hex,)),
+            enabled=lambda: selection.hex is not None,
+            in_view=True,
+        )
+        yield Action(
+            id="dig",
+            text=tr("&Hide hex"),
+            menu="Hex",
+            section=1,
+            keys="Delete",
+            help=tr("Hide the selected hex to see behind it. Ctrl+click in the view does the same."),
+            handle=lambda: self._dig(selection.hex),
+            enabled=lambda: selection.hex is not None,
+            in_view=True,
+        )
+        yield Action(
+            id="undig",
+            text=tr("Show &last hidden hex"),
+            menu="Hex",
+            section=1,
+            keys="Backspace",
+            help=tr("Show the hex that was hidden last."),
+            handle=view.undig_last,
+            enabled=lambda: bool(view.look.show.hidden),
+            in_view=True,
         )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the proposed cuts, also while nothing is cut."""
-        return (StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose),)
+    def states(self) -> Iterable[StatePart]:
+        """Yield the proposed cuts, also while nothing is cut."""
+        yield StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose)
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the cut panel and, below it, the panel that peels, shrinks and isolates."""
-        return (
-            Panel(
-                id="cut",
-                title=tr("Cut"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Cut"),
-                order=30,
-                help=tr("Cut the mesh open with planes, a box, a slab or a sphere, or by depth."),
-            ),
-            Panel(
-                id="inside",
-                title=tr("Inside"),
-                widget=self.inside,
-                place=PanelPlace.TOOLS,
-                tab=tr("Cut"),
-                order=31,
-                help=tr("Peel, shrink, isolate and hide hexes."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the cut panel and, below it, the panel that peels, shrinks and isolates."""
+        yield Panel(
+            id="cut",
+            title=tr("Cut"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Cut"),
+            order=30,
+            help=tr("Cut the mesh open with planes, a box, a slab or a sphere, or by depth."),
+        )
+        yield Panel(
+            id="inside",
+            title=tr("Inside"),
+            widget=self.inside,
+            place=PanelPlace.TOOLS,
+            tab=tr("Cut"),
+            order=31,
+            help=tr("Peel, shrink, isolate and hide hexes."),
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -33,41 +33,37 @@ class FeatureDoctor(Feature):
         )
         self.session.repairer.ended.connect(self._on_ended)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that open the panel and repair all problems."""
-        return (
-            Action(
-                id="doctor",
-                text=tr("&Doctor"),
-                menu="Edit",
-                section=1,
-                icon="stethoscope",
-                help=tr("Find problems other than quality: numbering, unmerged blocks, duplicates."),
-                handle=lambda: self.host.show_panel("doctor"),
-            ),
-            Action(
-                id="repair",
-                text=tr("&Repair mesh"),
-                menu="Edit",
-                section=1,
-                icon="bandage",
-                help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
-                handle=lambda: self.session.commands.repair([]),
-                enabled=lambda: self.session.editable and self._can_repair(),
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that open the panel and repair all problems."""
+        yield Action(
+            id="doctor",
+            text=tr("&Doctor"),
+            menu="Edit",
+            section=1,
+            icon="stethoscope",
+            help=tr("Find problems other than quality: numbering, unmerged blocks, duplicates."),
+            handle=lambda: self.host.show_panel("doctor"),
+        )
+        yield Action(
+            id="repair",
+            text=tr("&Repair mesh"),
+            menu="Edit",
+            section=1,
+            icon="bandage",
+            help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
+            handle=lambda: self.session.commands.repair([]),
+            enabled=lambda: self.session.editable and self._can_repair(),
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of findings."""
-        return (
-            Panel(
-                id="doctor",
-                title=tr("Doctor"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=60,
-                help=tr("Problems other than quality, with their location and remedy."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of findings."""
+        yield Panel(
+            id="doctor",
+            title=tr("Doctor"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=60,
+            help=tr("Problems other than quality, with their location and remedy."),
         )
 
     def refresh(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from hexmend_app.feature import Action, Feature
 from hexmend_app.translation import tr
@@ -11,34 +11,32 @@ from hexmend_app.translation import tr
 class FeatureEdit(Feature):
     """Undoes and redoes changes of the mesh."""
 
-    def actions(self) -> Sequence[Action]:
-        """Return undo and redo, whose texts name the change."""
+    def actions(self) -> Iterable[Action]:
+        """Yield undo and redo, whose texts name the change."""
         commands = self.session.commands
-        return (
-            Action(
-                id="undo",
-                text=tr("&Undo"),
-                menu="Edit",
-                keys="Ctrl+Z",
-                icon="undo",
-                help=tr("Undo the last change of the mesh."),
-                tool=tr("Undo"),
-                handle=commands.undo,
-                enabled=lambda: self.session.editable and self._undo_title is not None,
-                title=lambda: tr("&Undo {title}", title=tr(self._undo_title or "")).strip(),
-            ),
-            Action(
-                id="redo",
-                text=tr("&Redo"),
-                menu="Edit",
-                keys="Ctrl+Shift+Z",
-                icon="redo",
-                help=tr("Redo the change that was undone last."),
-                tool=tr("Redo"),
-                handle=commands.redo,
-                enabled=lambda: self.session.editable and self._redo_title is not None,
-                title=lambda: tr("&Redo {title}", title=tr(self._redo_title or "")).strip(),
-            ),
+        yield Action(
+            id="undo",
+            text=tr("&Undo"),
+            menu="Edit",
+            keys="Ctrl+Z",
+            icon="undo",
+            help=tr("Undo the last change of the mesh."),
+            tool=tr("Undo"),
+            handle=commands.undo,
+            enabled=lambda: self.session.editable and self._undo_title is not None,
+            title=lambda: tr("&Undo {title}", title=tr(self._undo_title or "")).strip(),
+        )
+        yield Action(
+            id="redo",
+            text=tr("&Redo"),
+            menu="Edit",
+            keys="Ctrl+Shift+Z",
+            icon="redo",
+            help=tr("Redo the change that was undone last."),
+            tool=tr("Redo"),
+            handle=commands.redo,
+            enabled=lambda: self.session.editable and self._redo_title is not None,
+            title=lambda: tr("&Redo {title}", title=tr(self._redo_title or "")).strip(),
         )
 
     @property

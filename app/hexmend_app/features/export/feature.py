@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -47,45 +47,43 @@ class FeatureExport(Feature):
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that open the dialog for a picture, a film and a report."""
-        return (
-            Action(
-                id="screenshot",
-                text=tr("Save &picture…"),
-                menu="File",
-                section=1,
-                keys="Ctrl+P",
-                icon="camera-outline",
-                help=tr("Save a picture of the view in any size."),
-                tool=tr("Picture"),
-                handle=lambda: self.ask("picture"),
-                enabled=lambda: self.canvas is not None,
-                in_view=True,
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that open the dialog for a picture, a film and a report."""
+        yield Action(
+            id="screenshot",
+            text=tr("Save &picture…"),
+            menu="File",
+            section=1,
+            keys="Ctrl+P",
+            icon="camera-outline",
+            help=tr("Save a picture of the view in any size."),
+            tool=tr("Picture"),
+            handle=lambda: self.ask("picture"),
+            enabled=lambda: self.canvas is not None,
+            in_view=True,
+        )
+        yield Action(
+            id="report",
+            text=tr("Export &report or figure set…"),
+            menu="File",
+            section=1,
+            icon="file-document-outline",
+            help=tr(
+                "Save pictures, charts and tables of the mesh before and after: one page, HTML or PDF, or a folder "
+                "of figures."
             ),
-            Action(
-                id="report",
-                text=tr("Export &report or figure set…"),
-                menu="File",
-                section=1,
-                icon="file-document-outline",
-                help=tr(
-                    "Save pictures, charts and tables of the mesh before and after: one page, HTML or PDF, or a folder "
-                    "of figures."
-                ),
-                handle=lambda: self.ask("report"),
-                enabled=lambda: self.canvas is not None and not self.session.run.busy and not self.going_on,
-            ),
-            Action(
-                id="film",
-                text=tr("Save fil&m…"),
-                menu="Timeline",
-                section=2,
-                icon="movie-open-outline",
-                help=tr("Save the iterations of the run as an animation, as shown in the view."),
-                handle=lambda: self.ask("film"),
-                enabled=lambda: self.canvas is not None and self.session.timeline.record is not None,
-            ),
+            handle=lambda: self.ask("report"),
+            enabled=lambda: self.canvas is not None and not self.session.run.busy and not self.going_on,
+        )
+        yield Action(
+            id="film",
+            text=tr("Save fil&m…"),
+            menu="Timeline",
+            section=2,
+            icon="movie-open-outline",
+            help=tr("Save the iterations of the run as an animation, as shown in the view."),
+            handle=lambda: self.ask("film"),
+            enabled=lambda: self.canvas is not None and self.session.timeline.record is not None,
         )
 
     def close(self) -> None:

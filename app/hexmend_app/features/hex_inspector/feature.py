@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -52,126 +52,117 @@ class FeatureHexInspector(Feature):
         panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         panel.pin_toggled.connect(session.commands.pin)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that step through the list and act on the selection."""
-        return (*self._list_actions(), *self._selection_actions())
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that step through the list and act on the selection."""
+        yield from self._list_actions()
+        yield from self._selection_actions()
 
-    def _list_actions(self) -> Sequence[Action]:
-        return (
-            Action(
-                id="next_worst",
-                text=tr("&Next worst hex"),
-                menu="Hex",
-                keys="N",
-                icon="bullseye-arrow",
-                help=tr("Go to the next hex in the list of the worst."),
-                tool=tr("Worst"),
-                handle=self.worst_list.next,
-            ),
-            Action(
-                id="previous_worst",
-                text=tr("&Previous worst hex"),
-                menu="Hex",
-                keys="Shift+N",
-                icon="chevron-up",
-                help=tr("Go to the previous hex in the list of the worst."),
-                handle=self.worst_list.previous,
-            ),
+    def _list_actions(self) -> Iterable[Action]:
+        yield Action(
+            id="next_worst",
+            text=tr("&Next worst hex"),
+            menu="Hex",
+            keys="N",
+            icon="bullseye-arrow",
+            help=tr("Go to the next hex in the list of the worst."),
+            tool=tr("Worst"),
+            handle=self.worst_list.next,
+        )
+        yield Action(
+            id="previous_worst",
+            text=tr("&Previous worst hex"),
+            menu="Hex",
+            keys="Shift+N",
+            icon="chevron-up",
+            help=tr("Go to the previous hex in the list of the worst."),
+            handle=self.worst_list.previous,
         )
 
-    def _selection_actions(self) -> Sequence[Action]:
+    def _selection_actions(self) -> Iterable[Action]:
         session = self.session
-        return (
-            Action(
-                id="visit",
-                text=tr("&Zoom to hex"),
-                menu="Hex",
-                keys="Shift+F",
-                help=tr("Move the camera to the selected hex."),
-                handle=lambda: self._selection.visit(self._selection.hex),
-                enabled=lambda: self._selection.hex is not None,
-                in_view=True,
-            ),
-            Action(
-                id="pin",
-                text=tr("&Pin node"),
-                menu="Hex",
-                keys="Shift+P",
-                icon="pin-outline",
-                help=tr("Pin the selected node so that no method moves it, or unpin it; undo reverts this."),
-                handle=lambda on: session.commands.pin(self._selection.node, on),
-                enabled=lambda: session.editable and self._can_be_pinned(),
-                checked=self._is_pinned,
-                in_view=True,
-            ),
-            Action(
-                id="free_isolated",
-                text=tr("Pin &all but the isolated hexes"),
-                menu="Hex",
-                icon="pin-off-outline",
-                help=tr(
-                    "Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this."
-                ),
-                handle=self._free_isolated,
-                enabled=lambda: session.editable and self._view.look.show.isolate is not None,
-            ),
-            Action(
-                id="back",
-                text=tr("&Show all or clear selection"),
-                menu="Hex",
-                section=3,
-                keys="Esc",
-                help=tr("End measuring or show all hexes; if neither applies, clear the selection."),
-                handle=self._back,
-                enabled=lambda: (
-                    not self.host.messages.takes_escape
-                    and not self.session.opener.busy
-                    and (self._selection.hex is not None or self._view.look.show.isolate is not None or self._measures)
-                ),
+        yield Action(
+            id="visit",
+            text=tr("&Zoom to hex"),
+            menu="Hex",
+            keys="Shift+F",
+            help=tr("Move the camera to the selected hex."),
+            handle=lambda: self._selection.visit(self._selection.hex),
+            enabled=lambda: self._selection.hex is not None,
+            in_view=True,
+        )
+        yield Action(
+            id="pin",
+            text=tr("&Pin node"),
+            menu="Hex",
+            keys="Shift+P",
+            icon="pin-outline",
+            help=tr("Pin the selected node so that no method moves it, or unpin it; undo reverts this."),
+            handle=lambda on: session.commands.pin(self._selection.node, on),
+            enabled=lambda: session.editable and self._can_be_pinned(),
+            checked=self._is_pinned,
+            in_view=True,
+        )
+        yield Action(
+            id="free_isolated",
+            text=tr("Pin &all but the isolated hexes"),
+            menu="Hex",
+            icon="pin-off-outline",
+            help=tr("Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this."),
+            handle=self._free_isolated,
+            enabled=lambda: session.editable and self._view.look.show.isolate is not None,
+        )
+        yield Action(
+            id="back",
+            text=tr("&Show all or clear selection"),
+            menu="Hex",
+            section=3,
+            keys="Esc",
+            help=tr("End measuring or show all hexes; if neither applies, clear the selection."),
+            handle=self._back,
+            enabled=lambda: (
+                not self.host.messages.takes_escape
+                and not self.session.opener.busy
+                and (self._selection.hex is not None or self._view.look.show.isolate is not None or self._measures)
             ),
         )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the settings of the list of worst hexes, and of the labels of corners."""
-        return (
-            StatePart(
-                name="worst",
-                data=WorstListSettings,
-                to_data=self.worst_list.settings,
-                restore=self.worst_list.restore,
-            ),
-            StatePart(
-                name="corners",
-                data=bool,
-                to_data=self.panel.corners_box.isChecked,
-                restore=self.panel.corners_box.setChecked,
-            ),
+    def states(self) -> Iterable[StatePart]:
+        """Yield the settings of the list of worst hexes, and of the labels of corners."""
+        yield StatePart(
+            name="worst",
+            data=WorstListSettings,
+            to_data=self.worst_list.settings,
+            restore=self.worst_list.restore,
+        )
+        yield StatePart(
+            name="corners",
+            data=bool,
+            to_data=self.panel.corners_box.isChecked,
+            restore=self.panel.corners_box.setChecked,
         )
 
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.worst_list.show_actions(self.host.action("previous_worst"), self.host.action("next_worst"))
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the list of the worst hexes and the panel of the selected hex."""
-        return (
-            Panel(
-                id="worst",
-                title=tr("Worst"),
-                widget=self.worst_list,
-                place=PanelPlace.DRAWER,
-                order=1,
-                help=tr("The worst hexes by any metric."),
-            ),
-            Panel(
-                id="hex",
-                title=tr("Hex"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=2,
-                help=tr("Details of the selected hex and its nodes."),
-                scrolls=True,
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the list of the worst hexes and the panel of the selected hex."""
+        yield Panel(
+            id="worst",
+            title=tr("Worst"),
+            widget=self.worst_list,
+            place=PanelPlace.DRAWER,
+            order=1,
+            help=tr("The worst hexes by any metric."),
+        )
+        yield Panel(
+            id="hex",
+            title=tr("Hex"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=2,
+            help=tr("Details of the selected hex and its nodes."),
+            scrolls=True,
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

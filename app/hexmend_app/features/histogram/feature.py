@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -54,28 +54,24 @@ class FeatureHistogram(Feature):
         panel.head.save.triggered.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the settings of the histogram."""
-        return (
-            StatePart(
-                name="histogram",
-                data=HistogramSettings,
-                to_data=self.panel.head.settings,
-                restore=self.panel.head.restore,
-            ),
+    def states(self) -> Iterable[StatePart]:
+        """Yield the settings of the histogram."""
+        yield StatePart(
+            name="histogram",
+            data=HistogramSettings,
+            to_data=self.panel.head.settings,
+            restore=self.panel.head.restore,
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the histogram."""
-        return (
-            Panel(
-                id="histogram",
-                title=tr("Histogram"),
-                widget=self.panel,
-                place=PanelPlace.FACTS,
-                order=10,
-                help=tr("Distribution of a quality metric; drag over it to show only the hexes of a range."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the histogram."""
+        yield Panel(
+            id="histogram",
+            title=tr("Histogram"),
+            widget=self.panel,
+            place=PanelPlace.FACTS,
+            order=10,
+            help=tr("Distribution of a quality metric; drag over it to show only the hexes of a range."),
         )
 
     @property

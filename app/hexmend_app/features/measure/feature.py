@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host
@@ -24,29 +24,27 @@ class FeatureMeasure(Feature):
         self.strip.closed.connect(self._view.end_measuring)
         self.strip.clear_button.clicked.connect(self._view.clear_measurement)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that measure and copy."""
-        return (
-            Action(
-                id="measure",
-                text=tr("&Measure"),
-                menu="View",
-                section=1,
-                keys="R",
-                icon="ruler",
-                help=tr("Click points in the view: two give a distance, three an angle; Esc ends."),
-                handle=lambda on: self._view.start_measuring() if on else self._view.end_measuring(),
-                checked=lambda: self._view.measuring,
-                enabled=lambda: self.canvas is not None,
-                in_view=True,
-            ),
-            Action(
-                id="copy_measurement",
-                text=tr("Copy measurement"),
-                help=tr("Copy the measured points, distances and angle to the clipboard."),
-                handle=self.strip.copy,
-                enabled=lambda: len(self._view.look.measurement.points) > 1,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that measure and copy."""
+        yield Action(
+            id="measure",
+            text=tr("&Measure"),
+            menu="View",
+            section=1,
+            keys="R",
+            icon="ruler",
+            help=tr("Click points in the view: two give a distance, three an angle; Esc ends."),
+            handle=lambda on: self._view.start_measuring() if on else self._view.end_measuring(),
+            checked=lambda: self._view.measuring,
+            enabled=lambda: self.canvas is not None,
+            in_view=True,
+        )
+        yield Action(
+            id="copy_measurement",
+            text=tr("Copy measurement"),
+            help=tr("Copy the measured points, distances and angle to the clipboard."),
+            handle=self.strip.copy,
+            enabled=lambda: len(self._view.look.measurement.points) > 1,
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

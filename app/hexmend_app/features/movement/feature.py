@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
@@ -23,18 +23,16 @@ class FeatureMovement(Feature):
         panel.traces_changed.connect(lambda traces: view.change(movement=traces))
         panel.show_newly.clicked.connect(self._show_newly_invalid)
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of the displacement."""
-        return (
-            Panel(
-                id="movement",
-                title=tr("Movement"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Look"),
-                order=22,
-                help=tr("Displacement of the nodes and change of quality since a reference state."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of the displacement."""
+        yield Panel(
+            id="movement",
+            title=tr("Movement"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Look"),
+            order=22,
+            help=tr("Displacement of the nodes and change of quality since a reference state."),
         )
 
     def refresh(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
@@ -51,23 +51,21 @@ class FeatureNodeStep(Feature):
         panel.nodes.followed.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.isolate_button.clicked.connect(self._isolate_patch)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that explain a node and run a sweep node by node."""
-        return (
-            Action(
-                id="explain_node",
-                text=tr("&Explain node step"),
-                menu="Hex",
-                section=2,
-                keys="D",
-                help=tr("Explain the step of the selected method at the selected node, or at a node of the worst hex."),
-                handle=self._explain_node,
-                in_view=True,
-            ),
-            *self._sweep_actions(),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that explain a node and run a sweep node by node."""
+        yield Action(
+            id="explain_node",
+            text=tr("&Explain node step"),
+            menu="Hex",
+            section=2,
+            keys="D",
+            help=tr("Explain the step of the selected method at the selected node, or at a node of the worst hex."),
+            handle=self._explain_node,
+            in_view=True,
         )
+        yield from self._sweep_actions()
 
-    def _sweep_actions(self) -> Iterator[Action]:
+    def _sweep_actions(self) -> Iterable[Action]:
         for id, amount, text, keys, label, help in _SWEEP:
             yield Action(
                 id=id,
@@ -87,17 +85,15 @@ class FeatureNodeStep(Feature):
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel of the node's step."""
-        return (
-            Panel(
-                id="node",
-                title=tr("Node"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=40,
-                help=tr("Step of the selected method at the selected node."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel of the node's step."""
+        yield Panel(
+            id="node",
+            title=tr("Node"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=40,
+            help=tr("Step of the selected method at the selected node."),
         )
 
     # Display

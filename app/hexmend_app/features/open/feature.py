@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -57,34 +57,32 @@ class FeatureOpen(Feature):
         host.dialog_parent.setAcceptDrops(True)
         host.dialog_parent.installEventFilter(self)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that open a mesh or the demo."""
-        return (
-            Action(
-                id="open",
-                text=tr("&Open…"),
-                menu="File",
-                keys="Ctrl+O",
-                icon="folder-open-outline",
-                help=tr("Open a mesh file."),
-                tool=tr("Open"),
-                needs_mesh=False,
-                handle=self.ask,
-                submenu=self._menu,
-            ),
-            Action(
-                id="open_demo",
-                text=tr("Open &demo mesh"),
-                menu="File",
-                help=tr("Open the demo mesh included with Hexmend."),
-                needs_mesh=False,
-                handle=self.open_demo,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that open a mesh or the demo."""
+        yield Action(
+            id="open",
+            text=tr("&Open…"),
+            menu="File",
+            keys="Ctrl+O",
+            icon="folder-open-outline",
+            help=tr("Open a mesh file."),
+            tool=tr("Open"),
+            needs_mesh=False,
+            handle=self.ask,
+            submenu=self._menu,
+        )
+        yield Action(
+            id="open_demo",
+            text=tr("Open &demo mesh"),
+            menu="File",
+            help=tr("Open the demo mesh included with Hexmend."),
+            needs_mesh=False,
+            handle=self.open_demo,
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the welcome page, shown while no mesh is open."""
-        return (Panel(id="welcome", title=tr("Welcome"), widget=self.welcome, place=PanelPlace.EMPTY),)
+    def panels(self) -> Iterable[Panel]:
+        """Yield the welcome page, shown while no mesh is open."""
+        yield Panel(id="welcome", title=tr("Welcome"), widget=self.welcome, place=PanelPlace.EMPTY)
 
     def refresh(self) -> None:
         """Show the welcome page only while no mesh is open or opening."""

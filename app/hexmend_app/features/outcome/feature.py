@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
@@ -40,34 +40,30 @@ class FeatureOutcome(Feature):
         session.document.mesh_replaced.connect(self._on_mesh_replaced)
         self._shown: Advice | None = None
 
-    def actions(self) -> Sequence[Action]:
-        """Return the action that shows the panel."""
-        return (
-            Action(
-                id="why",
-                text=tr("Run summar&y"),
-                menu="Smooth",
-                section=1,
-                keys="Y",
-                icon="help-circle-outline",
-                help=tr("Show why the run stopped, the remaining invalid hexes and what to try next."),
-                handle=lambda: self.host.show_panel("outcome"),
-                enabled=lambda: self._shown is not None,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the action that shows the panel."""
+        yield Action(
+            id="why",
+            text=tr("Run summar&y"),
+            menu="Smooth",
+            section=1,
+            keys="Y",
+            icon="help-circle-outline",
+            help=tr("Show why the run stopped, the remaining invalid hexes and what to try next."),
+            handle=lambda: self.host.show_panel("outcome"),
+            enabled=lambda: self._shown is not None,
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel that explains a run."""
-        return (
-            Panel(
-                id="outcome",
-                title=tr("Run summary"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                tab=tr("Convergence"),
-                order=50,
-                help=tr("Why the run stopped and what to try next."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel that explains a run."""
+        yield Panel(
+            id="outcome",
+            title=tr("Run summary"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            tab=tr("Convergence"),
+            order=50,
+            help=tr("Why the run stopped and what to try next."),
         )
 
     def refresh(self) -> None:

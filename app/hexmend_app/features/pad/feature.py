@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from hexmend.padding import Padding
 from hexmend_app.feature import Action, Feature, Host
@@ -27,19 +27,17 @@ class FeaturePad(Feature):
         )
         self.session.padder.ended.connect(self._on_ended)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the action that pads the mesh."""
-        return (
-            Action(
-                id="pad",
-                text=tr("&Pad…"),
-                menu="Edit",
-                section=1,
-                icon="layers-plus",
-                help=tr("Insert a layer of hexes under the boundary to free locked hexes. Can be undone."),
-                handle=self.ask,
-                enabled=lambda: self.session.editable,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the action that pads the mesh."""
+        yield Action(
+            id="pad",
+            text=tr("&Pad…"),
+            menu="Edit",
+            section=1,
+            icon="layers-plus",
+            help=tr("Insert a layer of hexes under the boundary to free locked hexes. Can be undone."),
+            handle=self.ask,
+            enabled=lambda: self.session.editable,
         )
 
     def ask(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -28,18 +28,16 @@ class FeaturePyvistaWindow(Feature):
         super().__init__(host)
         self.plotters: list[BackgroundPlotter] = []
 
-    def actions(self) -> Sequence[Action]:
-        """Return the action that opens a window."""
-        return [
-            Action(
-                id="pyvista_window",
-                text=tr("Open in PyVista window"),
-                menu="View",
-                help=tr("Show the mesh as it is coloured and cut now in a window of PyVista, with its widgets."),
-                handle=lambda: self.host.try_and_report(tr("No PyVista window"), self.open),
-                enabled=lambda: self.canvas is not None,
-            )
-        ]
+    def actions(self) -> Iterable[Action]:
+        """Yield the action that opens a window."""
+        yield Action(
+            id="pyvista_window",
+            text=tr("Open in PyVista window"),
+            menu="View",
+            help=tr("Show the mesh as it is coloured and cut now in a window of PyVista, with its widgets."),
+            handle=lambda: self.host.try_and_report(tr("No PyVista window"), self.open),
+            enabled=lambda: self.canvas is not None,
+        )
 
     def open(self) -> None:
         """Open a window.

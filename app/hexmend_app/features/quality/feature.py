@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from PySide6.QtGui import QGuiApplication
 
@@ -25,27 +25,25 @@ class FeatureQuality(Feature):
         self.bar.isolate_requested.connect(self._isolate)
         self.bar.hide()
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that show the figures in the view and copy them."""
-        return (
-            Action(
-                id="key_figures",
-                text=tr("&Key figures"),
-                menu="View",
-                section=3,
-                help=tr(
-                    "Show inverted and invalid hexes, q min, q mean and scaled Jacobian min in the view. Side views "
-                    "have captions."
-                ),
-                handle=self._set_bar,
-                checked=settings.KEY_FIGURES.get,
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that show the figures in the view and copy them."""
+        yield Action(
+            id="key_figures",
+            text=tr("&Key figures"),
+            menu="View",
+            section=3,
+            help=tr(
+                "Show inverted and invalid hexes, q min, q mean and scaled Jacobian min in the view. Side views "
+                "have captions."
             ),
-            Action(
-                id="copy_figures",
-                text=tr("Copy quality figures"),
-                help=tr("Copy all quality figures, at the start and now, as a table for a spreadsheet."),
-                handle=self._copy,
-            ),
+            handle=self._set_bar,
+            checked=settings.KEY_FIGURES.get,
+        )
+        yield Action(
+            id="copy_figures",
+            text=tr("Copy quality figures"),
+            help=tr("Copy all quality figures, at the start and now, as a table for a spreadsheet."),
+            handle=self._copy,
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

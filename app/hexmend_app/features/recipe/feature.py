@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from hexmend.run.recipe import Recipe
@@ -29,51 +29,47 @@ class FeatureRecipe(Feature):
         panel.shipped_requested.connect(self.load)
         panel.set_shipped([(tr(read_recipe(path).title), path) for path in recipes()])
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that run, load and save the recipe."""
-        return (
-            Action(
-                id="recipe_run",
-                text=tr("R&un recipe"),
-                menu="Smooth",
-                section=2,
-                keys="Ctrl+Shift+F5",
-                help=tr("Run the stages of the recipe in sequence, as one run."),
-                handle=self.run,
-                enabled=lambda: bool(self._draft.stages) and self.session.editable,
-            ),
-            Action(
-                id="recipe_load",
-                text=tr("&Load recipe…"),
-                menu="Smooth",
-                section=2,
-                help=tr("Load a recipe: methods that run in sequence."),
-                handle=self.ask_load,
-                enabled=lambda: self.session.editable,
-            ),
-            Action(
-                id="recipe_save",
-                text=tr("Sa&ve recipe…"),
-                menu="Smooth",
-                section=2,
-                help=tr("Save the recipe as a TOML file."),
-                handle=self.ask_save,
-                enabled=lambda: bool(self._draft.stages),
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that run, load and save the recipe."""
+        yield Action(
+            id="recipe_run",
+            text=tr("R&un recipe"),
+            menu="Smooth",
+            section=2,
+            keys="Ctrl+Shift+F5",
+            help=tr("Run the stages of the recipe in sequence, as one run."),
+            handle=self.run,
+            enabled=lambda: bool(self._draft.stages) and self.session.editable,
+        )
+        yield Action(
+            id="recipe_load",
+            text=tr("&Load recipe…"),
+            menu="Smooth",
+            section=2,
+            help=tr("Load a recipe: methods that run in sequence."),
+            handle=self.ask_load,
+            enabled=lambda: self.session.editable,
+        )
+        yield Action(
+            id="recipe_save",
+            text=tr("Sa&ve recipe…"),
+            menu="Smooth",
+            section=2,
+            help=tr("Save the recipe as a TOML file."),
+            handle=self.ask_save,
+            enabled=lambda: bool(self._draft.stages),
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel with the stages."""
-        return (
-            Panel(
-                id="recipe",
-                title=tr("Recipe"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Smooth"),
-                order=11,
-                help=tr("Methods that run in sequence, as one run."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel with the stages."""
+        yield Panel(
+            id="recipe",
+            title=tr("Recipe"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Smooth"),
+            order=11,
+            help=tr("Methods that run in sequence, as one run."),
         )
 
     def refresh(self) -> None:

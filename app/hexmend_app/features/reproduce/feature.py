@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from PySide6.QtGui import QFontDatabase
@@ -29,41 +29,37 @@ class FeatureReproduce(Feature):
         self.panel.copy_button.clicked.connect(self.copy)
         self.panel.save_button.clicked.connect(self.ask)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that open the panel and save the script."""
-        return (
-            Action(
-                id="reproduce",
-                text=tr("Python conso&le"),
-                menu="Edit",
-                keys="Ctrl+`",
-                icon="console",
-                help=tr("Open the Python script of the mesh, and a console that uses and changes the mesh."),
-                handle=self.show,
-                needs_mesh=False,
-            ),
-            Action(
-                id="script",
-                text=tr("Save scr&ipt…"),
-                menu="File",
-                section=1,
-                icon="script-text-outline",
-                help=tr("Save the changes of the mesh as a Python script."),
-                handle=self.ask,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that open the panel and save the script."""
+        yield Action(
+            id="reproduce",
+            text=tr("Python conso&le"),
+            menu="Edit",
+            keys="Ctrl+`",
+            icon="console",
+            help=tr("Open the Python script of the mesh, and a console that uses and changes the mesh."),
+            handle=self.show,
+            needs_mesh=False,
+        )
+        yield Action(
+            id="script",
+            text=tr("Save scr&ipt…"),
+            menu="File",
+            section=1,
+            icon="script-text-outline",
+            help=tr("Save the changes of the mesh as a Python script."),
+            handle=self.ask,
         )
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel."""
-        return (
-            Panel(
-                id="reproduce",
-                title=tr("Reproduce"),
-                widget=self.panel,
-                place=PanelPlace.DRAWER,
-                order=70,
-                help=tr("The changes of the mesh as a Python script, and a Python console."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel."""
+        yield Panel(
+            id="reproduce",
+            title=tr("Reproduce"),
+            widget=self.panel,
+            place=PanelPlace.DRAWER,
+            order=70,
+            help=tr("The changes of the mesh as a Python script, and a Python console."),
         )
 
     def refresh(self) -> None:

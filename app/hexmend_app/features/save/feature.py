@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -31,30 +31,28 @@ class FeatureSave(Feature):
         saver.ended.connect(self._on_ended)
         saver.failed.connect(self._on_failed)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that save the mesh."""
-        return (
-            Action(
-                id="save",
-                text=tr("&Save mesh as…"),
-                menu="File",
-                section=1,
-                keys="Ctrl+S",
-                icon="content-save-outline",
-                help=tr("Save the displayed mesh to a file."),
-                tool=tr("Save"),
-                handle=self.ask_mesh,
-                enabled=lambda: self.session.run.phase is not Phase.RUNNING,
-            ),
-            Action(
-                id="save_visible",
-                text=tr("Save &visible hexes as…"),
-                menu="File",
-                section=1,
-                help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
-                handle=self.ask_visible,
-                enabled=self._can_save_visible,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that save the mesh."""
+        yield Action(
+            id="save",
+            text=tr("&Save mesh as…"),
+            menu="File",
+            section=1,
+            keys="Ctrl+S",
+            icon="content-save-outline",
+            help=tr("Save the displayed mesh to a file."),
+            tool=tr("Save"),
+            handle=self.ask_mesh,
+            enabled=lambda: self.session.run.phase is not Phase.RUNNING,
+        )
+        yield Action(
+            id="save_visible",
+            text=tr("Save &visible hexes as…"),
+            menu="File",
+            section=1,
+            help=tr("Save the hexes that the view shows as a mesh: after cut, filters, isolation and hiding."),
+            handle=self.ask_visible,
+            enabled=self._can_save_visible,
         )
 
     def confirm_close(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
 
@@ -31,29 +31,27 @@ class FeatureSession(Feature):
         self._failed = False
         self._offered: set[RecoveredSession] = set()
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that save and recover a session."""
-        return (
-            Action(
-                id="save_session",
-                text=tr("Save sess&ion as…"),
-                menu="File",
-                section=1,
-                keys="Ctrl+Shift+S",
-                icon="content-save-all-outline",
-                help=tr("Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later."),
-                handle=self.ask,
-                enabled=self._savable,
-            ),
-            Action(
-                id="recover",
-                text=tr("&Recover session…"),
-                menu="File",
-                help=tr("Open an autosaved session after a crash."),
-                needs_mesh=False,
-                handle=lambda: self._offer(self.recovery.recoverable[0]),
-                enabled=lambda: bool(self.recovery.recoverable) and not self.session.opener.busy,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that save and recover a session."""
+        yield Action(
+            id="save_session",
+            text=tr("Save sess&ion as…"),
+            menu="File",
+            section=1,
+            keys="Ctrl+Shift+S",
+            icon="content-save-all-outline",
+            help=tr("Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later."),
+            handle=self.ask,
+            enabled=self._savable,
+        )
+        yield Action(
+            id="recover",
+            text=tr("&Recover session…"),
+            menu="File",
+            help=tr("Open an autosaved session after a crash."),
+            needs_mesh=False,
+            handle=lambda: self._offer(self.recovery.recoverable[0]),
+            enabled=lambda: bool(self.recovery.recoverable) and not self.session.opener.busy,
         )
 
     def program_started(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexmend_app.canvas.view_captions import Caption
@@ -27,45 +27,43 @@ class FeatureSideViews(Feature):
         self._views, self._snapshots = self.session.side_views, self.session.snapshots
         self._seen = ChangeTracker()
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that add, wipe and close side views."""
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that add, wipe and close side views."""
         views, several, wiping = self._views, lambda: bool(self._views.all), lambda: self._views.wipe is not None
-        return (
-            Action(
-                id="beside",
-                text=tr("&Keep a copy in a side view"),
-                menu="Compare",
-                section=1,
-                keys="V",
-                icon="view-split-vertical",
-                help=tr("Keep a copy of the current mesh in a side view, to compare later meshes with it."),
-                handle=self._show_in_side_view,
-                enabled=lambda: not views.full,
-                in_view=True,
-            ),
-            Action(
-                id="wipe",
-                text=tr("&Wipe"),
-                menu="Compare",
-                section=1,
-                keys="W",
-                icon="compare",
-                help=tr("Overlay two views, separated by an edge that can be dragged."),
-                handle=views.set_wiping,
-                enabled=several,
-                checked=wiping,
-            ),
-            Action(
-                id="close_views",
-                text=tr("Close &other views"),
-                menu="Compare",
-                section=1,
-                keys="Ctrl+W",
-                help=tr("Show only the current mesh."),
-                handle=views.close_all,
-                enabled=several,
-                in_view=True,
-            ),
+        yield Action(
+            id="beside",
+            text=tr("&Keep a copy in a side view"),
+            menu="Compare",
+            section=1,
+            keys="V",
+            icon="view-split-vertical",
+            help=tr("Keep a copy of the current mesh in a side view, to compare later meshes with it."),
+            handle=self._show_in_side_view,
+            enabled=lambda: not views.full,
+            in_view=True,
+        )
+        yield Action(
+            id="wipe",
+            text=tr("&Wipe"),
+            menu="Compare",
+            section=1,
+            keys="W",
+            icon="compare",
+            help=tr("Overlay two views, separated by an edge that can be dragged."),
+            handle=views.set_wiping,
+            enabled=several,
+            checked=wiping,
+        )
+        yield Action(
+            id="close_views",
+            text=tr("Close &other views"),
+            menu="Compare",
+            section=1,
+            keys="Ctrl+W",
+            help=tr("Show only the current mesh."),
+            handle=views.close_all,
+            enabled=several,
+            in_view=True,
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:

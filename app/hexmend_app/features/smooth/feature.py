@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from functools import partial
 
 from PySide6.QtGui import QGuiApplication
@@ -54,102 +54,93 @@ class FeatureSmooth(Feature):
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that control a run."""
-        return (
-            Action(
-                id="run",
-                text=tr("&Run or pause"),
-                menu="Smooth",
-                keys="F5",
-                icon="play",
-                help=tr("Run the selected method; pause or resume a run."),
-                handle=self.run_or_pause,
-                enabled=lambda: self._ready() and self._state().run,
-                appearance=self._run_face,
-            ),
-            Action(
-                id="step",
-                text=tr("&Step"),
-                menu="Smooth",
-                keys="F10",
-                icon="skip-next",
-                help=tr("Run the number of iterations set in the panel Smooth, then pause."),
-                handle=self.step,
-                enabled=lambda: self._ready() and self._state().step,
-            ),
-            Action(
-                id="stop",
-                text=tr("S&top"),
-                menu="Smooth",
-                keys="Shift+F5",
-                icon="stop",
-                help=tr("Stop the run after this iteration and keep its result."),
-                handle=self._smoothing.stop,
-                enabled=lambda: self._state().stop,
-            ),
-            Action(
-                id="reset",
-                text=tr("R&eset"),
-                menu="Smooth",
-                keys="Ctrl+R",
-                icon="restore",
-                help=tr("Restore all node positions of the mesh as it was opened."),
-                handle=self.session.commands.reset,
-                enabled=lambda: self._ready() and self._state().reset,
-            ),
-            *self._option_actions(),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that control a run."""
+        yield Action(
+            id="run",
+            text=tr("&Run or pause"),
+            menu="Smooth",
+            keys="F5",
+            icon="play",
+            help=tr("Run the selected method; pause or resume a run."),
+            handle=self.run_or_pause,
+            enabled=lambda: self._ready() and self._state().run,
+            appearance=self._run_face,
+        )
+        yield Action(
+            id="step",
+            text=tr("&Step"),
+            menu="Smooth",
+            keys="F10",
+            icon="skip-next",
+            help=tr("Run the number of iterations set in the panel Smooth, then pause."),
+            handle=self.step,
+            enabled=lambda: self._ready() and self._state().step,
+        )
+        yield Action(
+            id="stop",
+            text=tr("S&top"),
+            menu="Smooth",
+            keys="Shift+F5",
+            icon="stop",
+            help=tr("Stop the run after this iteration and keep its result."),
+            handle=self._smoothing.stop,
+            enabled=lambda: self._state().stop,
+        )
+        yield Action(
+            id="reset",
+            text=tr("R&eset"),
+            menu="Smooth",
+            keys="Ctrl+R",
+            icon="restore",
+            help=tr("Restore all node positions of the mesh as it was opened."),
+            handle=self.session.commands.reset,
+            enabled=lambda: self._ready() and self._state().reset,
+        )
+        yield from self._option_actions()
+
+    def _option_actions(self) -> Iterable[Action]:
+        """Yield the actions for options of runs, and for their command."""
+        yield Action(
+            id="every_iteration",
+            text=tr("Show e&very iteration"),
+            menu="Smooth",
+            section=3,
+            help=tr("Show every iteration; the run waits until it is drawn."),
+            handle=self._show_every,
+            checked=lambda: self._smoothing.shows_every,
+            needs_mesh=False,
+        )
+        yield Action(
+            id="copy_command",
+            text=tr("&Copy as command"),
+            menu="Smooth",
+            section=3,
+            help=tr("Copy the hexmend smooth command with this method, its parameters, limits and rules of motion."),
+            handle=lambda: self.session.run_setup.use(self._copy_command),
+            enabled=lambda: self._ready() and self.session.document.path is not None,
         )
 
-    def _option_actions(self) -> Sequence[Action]:
-        """Return the actions for options of runs, and for their command."""
-        return (
-            Action(
-                id="every_iteration",
-                text=tr("Show e&very iteration"),
-                menu="Smooth",
-                section=3,
-                help=tr("Show every iteration; the run waits until it is drawn."),
-                handle=self._show_every,
-                checked=lambda: self._smoothing.shows_every,
-                needs_mesh=False,
-            ),
-            Action(
-                id="copy_command",
-                text=tr("&Copy as command"),
-                menu="Smooth",
-                section=3,
-                help=tr(
-                    "Copy the hexmend smooth command with this method, its parameters, limits and rules of motion."
-                ),
-                handle=lambda: self.session.run_setup.use(self._copy_command),
-                enabled=lambda: self._ready() and self.session.document.path is not None,
-            ),
-        )
-
-    def states(self) -> Sequence[StatePart]:
-        """Return the number of iterations of a step."""
-        steps = StatePart(
+    def states(self) -> Iterable[StatePart]:
+        """Yield the number of iterations of a step."""
+        yield StatePart(
             name="steps",
             data=int,
             to_data=lambda: self.panel.steps,
             restore=self.panel.set_steps,
             check=partial(check_count, "steps"),
         )
-        return (steps,)
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel with the method and its parameters."""
-        return (
-            Panel(
-                id="run",
-                title=tr("Smooth"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Smooth"),
-                order=10,
-                help=tr("The smoothing method, its parameters and its stopping criteria."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel with the method and its parameters."""
+        yield Panel(
+            id="run",
+            title=tr("Smooth"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Smooth"),
+            order=10,
+            help=tr("The smoothing method, its parameters and its stopping criteria."),
         )
 
     def refresh(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -23,10 +23,10 @@ class FeatureStructure(Feature):
         self.panel = StructurePanel()
         self.panel.structure_changed.connect(lambda structure: self._view.change(structure=structure))
 
-    def actions(self) -> Sequence[Action]:
-        """Return one action for each layer."""
-        return [
-            Action(
+    def actions(self) -> Iterable[Action]:
+        """Yield an action for each layer."""
+        for layer in ordered_layers():
+            yield Action(
                 id=f"show_{layer.name}",
                 text=tr(layer.action or layer.title),
                 menu="View/Show",
@@ -36,21 +36,17 @@ class FeatureStructure(Feature):
                 enabled=lambda name=layer.name: self.panel.offered()[name],
                 checked=lambda name=layer.name: self._view.look.structure.is_on(name),
             )
-            for layer in ordered_layers()
-        ]
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the panel with the layers and their legends."""
-        return (
-            Panel(
-                id="show",
-                title=tr("Show"),
-                widget=self.panel,
-                place=PanelPlace.TOOLS,
-                tab=tr("Look"),
-                order=21,
-                help=tr("Edges, nodes and surfaces that are drawn over the mesh."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the panel with the layers and their legends."""
+        yield Panel(
+            id="show",
+            title=tr("Show"),
+            widget=self.panel,
+            place=PanelPlace.TOOLS,
+            tab=tr("Look"),
+            order=21,
+            help=tr("Edges, nodes and surfaces that are drawn over the mesh."),
         )
 
     def refresh(self) -> None:

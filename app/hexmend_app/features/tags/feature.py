@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,35 +34,33 @@ class FeatureTags(Feature):
         strip.rename_button.clicked.connect(self._ask_name)
         strip.remove_button.clicked.connect(lambda: commands.remove_tag(strip.name))
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that tag the selected hex and show the strip."""
-        return (
-            Action(
-                id="tag",
-                text=tr("&Tag hex"),
-                menu="Hex",
-                section=2,
-                keys="T",
-                icon="tag-outline",
-                help=tr("Add the tag named below the view to the selected hex, or remove it; saved with the mesh."),
-                handle=self._tag_selected,
-                in_view=True,
-            ),
-            Action(
-                id="tags",
-                text=tr("Ta&gs"),
-                menu="Hex",
-                section=2,
-                help=tr("Show a bar that tags, isolates, renames and removes named groups of hexes."),
-                handle=lambda on: self.strip.setVisible(on),
-                checked=lambda: not self.strip.isHidden(),
-                in_view=True,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that tag the selected hex and show the strip."""
+        yield Action(
+            id="tag",
+            text=tr("&Tag hex"),
+            menu="Hex",
+            section=2,
+            keys="T",
+            icon="tag-outline",
+            help=tr("Add the tag named below the view to the selected hex, or remove it; saved with the mesh."),
+            handle=self._tag_selected,
+            in_view=True,
+        )
+        yield Action(
+            id="tags",
+            text=tr("Ta&gs"),
+            menu="Hex",
+            section=2,
+            help=tr("Show a bar that tags, isolates, renames and removes named groups of hexes."),
+            handle=lambda on: self.strip.setVisible(on),
+            checked=lambda: not self.strip.isHidden(),
+            in_view=True,
         )
 
-    def states(self) -> Sequence[StatePart]:
-        """Return the name for the next tag."""
-        return (StatePart(name="tag", data=str, to_data=lambda: self.strip.name, restore=self.strip.set_name),)
+    def states(self) -> Iterable[StatePart]:
+        """Yield the name for the next tag."""
+        yield StatePart(name="tag", data=str, to_data=lambda: self.strip.name, restore=self.strip.set_name)
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Add the strip below the view."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,27 +19,25 @@ from hexmend_app.widgets.dialogs.questions import ask_to_open
 class FeatureTargetSurface(Feature):
     """Lets the boundary slide on the surface of a file, and on itself again."""
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that choose a surface and remove it."""
-        return (
-            Action(
-                id="slide_on_surface",
-                text=tr("Slide on surface o&f file…"),
-                menu="Smooth",
-                section=3,
-                help=tr("Let the boundary slide on a surface from a file, such as an STL file; undo reverts this."),
-                handle=self.ask,
-                enabled=lambda: self.session.editable,
-            ),
-            Action(
-                id="slide_on_boundary",
-                text=tr("Slide on own &boundary"),
-                menu="Smooth",
-                section=3,
-                help=tr("Remove the surface of the file, so that the boundary slides on itself; undo reverts this."),
-                handle=self._remove,
-                enabled=lambda: self.session.editable and self.session.document.now.mesh.target is not None,
-            ),
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that choose a surface and remove it."""
+        yield Action(
+            id="slide_on_surface",
+            text=tr("Slide on surface o&f file…"),
+            menu="Smooth",
+            section=3,
+            help=tr("Let the boundary slide on a surface from a file, such as an STL file; undo reverts this."),
+            handle=self.ask,
+            enabled=lambda: self.session.editable,
+        )
+        yield Action(
+            id="slide_on_boundary",
+            text=tr("Slide on own &boundary"),
+            menu="Smooth",
+            section=3,
+            help=tr("Remove the surface of the file, so that the boundary slides on itself; undo reverts this."),
+            handle=self._remove,
+            enabled=lambda: self.session.editable and self.session.document.now.mesh.target is not None,
         )
 
     def ask(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from PySide6.QtGui import QGuiApplication
 
@@ -25,10 +25,10 @@ class FeatureTheme(Feature):
         super().__init__(host)
         QGuiApplication.styleHints().colorSchemeChanged.connect(theme_choice.apply_theme)
 
-    def actions(self) -> Sequence[Action]:
-        """Return one action for each theme."""
-        return [
-            Action(
+    def actions(self) -> Iterable[Action]:
+        """Yield an action for each theme."""
+        for choice, (text, help) in _TEXTS.items():
+            yield Action(
                 id=f"theme_{choice.value}",
                 text=tr(text),
                 menu="View/Theme",
@@ -38,8 +38,6 @@ class FeatureTheme(Feature):
                 needs_mesh=False,
                 exclusive=True,
             )
-            for choice, (text, help) in _TEXTS.items()
-        ]
 
     def _choose(self, choice: ThemeChoice, on: bool) -> None:
         if on and choice is not theme_choice.chosen():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 
 from hexmend_app.feature import Action, ButtonAppearance, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
@@ -45,10 +45,10 @@ class FeatureTimeline(Feature):
         timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
 
-    def actions(self) -> Sequence[Action]:
-        """Return the actions that show iterations, play them, and start a branch."""
-        return [
-            Action(
+    def actions(self) -> Iterable[Action]:
+        """Yield the actions that show iterations, play them, and start a branch."""
+        for (name, text, keys, icon, help), handle in zip(_STEPS, self._handles(), strict=True):
+            yield Action(
                 id=f"iteration_{name}",
                 text=tr(text),
                 menu="Timeline",
@@ -60,24 +60,20 @@ class FeatureTimeline(Feature):
                 enabled=lambda name=name: self._timeline.record is not None and self._can()[name],
                 appearance=self._play_appearance if name == "play" else None,
             )
-            for (name, text, keys, icon, help), handle in zip(_STEPS, self._handles(), strict=True)
-        ]
 
     def actions_ready(self) -> None:
         """Show actions on the buttons of the panel."""
         self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
         self.panel.run_bar.show_actions({name: self.host.action(name) for name in ("run", "step", "stop", "reset")})
 
-    def panels(self) -> Sequence[Panel]:
-        """Return the bar below the view."""
-        return (
-            Panel(
-                id="timeline",
-                title=tr("Timeline"),
-                widget=self.panel,
-                place=PanelPlace.BAR,
-                help=tr("Navigate through the iterations of a run."),
-            ),
+    def panels(self) -> Iterable[Panel]:
+        """Yield the bar below the view."""
+        yield Panel(
+            id="timeline",
+            title=tr("Timeline"),
+            widget=self.panel,
+            place=PanelPlace.BAR,
+            help=tr("Navigate through the iterations of a run."),
         )
 
     def refresh(self) -> None:
