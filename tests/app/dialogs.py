@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QDialog
 
-from hexmend_app.features.pad.pad_dialog import PadDialog
+from hexmend_app.features.pad.feature import PadDialog
 from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries

@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from hexmend_app.state.session import session_data
-from hexmend_app.state.settings.paths import VARIABLE
+from hexmend_app.state.session.recovery import VARIABLE
 from hexmend_app.state.tasks.task import Task, running
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE

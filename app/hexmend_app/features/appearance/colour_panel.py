@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from PySide6.QtCore import Qt, Signal
+import numpy as np
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QCheckBox, QLabel, QSizePolicy, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
-from hexmend_app.features.appearance.map_box import MapBox
+from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
 from hexmend_app.picture.colours import MATERIAL, Colours, Range, colour_quantity
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import range_label
@@ -39,6 +41,8 @@ _RANGES = {
 _NEUTRAL = "Draw the boundary white and cut faces in one colour; invalid hexes keep their colours."
 _SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
 _BOXES = (("low", 0.0), ("high", 1.0))
+_SWATCH = QSize(48, 12)
+_VALUE_MAPS_HELP = "All maps are perceptually uniform and readable with red-green colour blindness."
 
 
 class ColourPanel(QWidget):
@@ -221,3 +225,44 @@ def _rounded(low: float, high: float) -> tuple[float, float]:
     """Return the ends as labelled on the colour bar, or unrounded if the labels are equal."""
     ends = float(range_label(low, low, high)), float(range_label(high, low, high))
     return ends if ends[0] < ends[1] else (low, high)
+
+
+class MapBox(ComboBox):
+    """Combo box that selects a colour map for values; changes have one fixed map.
+
+    Signals
+    -------
+    chosen(str)
+        The user selected the map with this name.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        let_shrink(self, 6)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setIconSize(_SWATCH)
+        self.activated.connect(self._on_activated)
+
+    def show_map(self, name: str, change: bool) -> None:
+        """List the maps of values, or the diverging map if `change`, and select a map by name."""
+        maps = (CHANGE_MAP,) if change else value_maps()
+        if self.findData(maps[0]) < 0:
+            self.clear()
+            for at, key in enumerate(maps):
+                self.addItem(_swatch(key), tr(COLOUR_MAPS[key].title) or key, key)
+                self.setItemData(at, tr(COLOUR_MAPS[key].help), Qt.ItemDataRole.ToolTipRole)
+        self.setCurrentIndex(max(self.findData(name), 0))
+        set_help(self, tr("Colour map"), tr(COLOUR_MAPS[CHANGE_MAP].help) if change else tr(_VALUE_MAPS_HELP))
+
+    def _on_activated(self) -> None:
+        if self.currentData() in value_maps():
+            self.chosen.emit(self.currentData())
+
+
+def _swatch(name: str) -> QIcon:
+    """Return an icon of a map, drawn at four times its size so that it is sharp at any scale."""
+    colours = np.ascontiguousarray(COLOUR_MAPS[name].table[None])
+    image = QImage(colours.tobytes(), colours.shape[1], 1, 3 * colours.shape[1], QImage.Format.Format_RGB888)
+    return QIcon(QPixmap.fromImage(image.scaled(_SWATCH * 4)))

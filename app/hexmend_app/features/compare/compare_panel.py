@@ -18,7 +18,7 @@ from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.tables.hex_table import shape_table
+from hexmend_app.widgets.tables.row_model import shape_table
 
 _HINT = "Select methods and press Compare methods. Each starts from the current mesh."
 

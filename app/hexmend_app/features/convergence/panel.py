@@ -4,35 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QListWidget, QListWidgetItem, QSizePolicy, QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.charts import CHARTS
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
-from hexmend_app.features.convergence.curves import Curve, axis_title
-from hexmend_app.features.convergence.head import ConvergenceHead
-from hexmend_app.features.convergence.run_list import RunList
+from hexmend_app.features.convergence.curves import Curve, axis_title, colour_of
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import note
+from hexmend_app.theme.style import icon, note, on_theme_change, set_help, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import scrolled
+from hexmend_app.widgets.inputs.menu_button import MenuButton
+from hexmend_app.widgets.legend import swatch_icon
+from hexmend_app.widgets.wording import counted
 
 _EMPTY = "No runs yet. Values of each iteration will appear here."
-
 #: Width of the controls next to the charts, their height above them, and smallest width of a panel with the controls
 #: at the side, in pixels.
 _SIDE, _ABOVE, _WIDE = 158, 90, 420
-
 #: Charts lower than this are in a row instead of stacked, in pixels.
 _LOW_CHART = 130
-
 #: Smallest number of iterations on the axis, so that its ticks are whole.
 _LEAST_ITERATIONS = 5.0
-
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not export.
 _UNBOUNDED = (1 << 24) - 1
+_LOG = "Logarithmic axes, except for quality, solver iterations and backtracks. Zero is drawn below the smallest value."
+_BY_TIME = "Plot against the seconds spent in the method, or the times of a case, instead of iterations."
+_SAVE = "Save the charts as SVG, PDF or PNG, or the values of all runs as CSV."
+_FROM_ZERO = "Start every run at 0 instead of where it branched off."
 
 
 class ConvergencePanel(QWidget):
@@ -150,3 +151,101 @@ class ConvergencePanel(QWidget):
                 x = float(curve.x(self.by_time)[number])
         for plot in self.drawn:
             plot.mark(x)
+
+
+class ConvergenceHead(QWidget):
+    """Controls that select charts and axes.
+
+    Attributes
+    ----------
+    charts : dict of str to QAction
+        By chart key, checked if the chart is shown.
+    log, by_time, from_zero, save : QAction
+
+    Signals
+    -------
+    changed
+        The user selected other charts, or changed between iterations and seconds, or between linear and logarithmic.
+    """
+
+    changed = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        charts = MenuButton(tr("Charts"), tr("Select the charts."))
+        charts.setText(tr("Charts ▾"))
+        charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.charts = {
+            key: charts.add(tr(chart.title), tr(chart.help), key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
+        }
+        options = MenuButton(tr("Chart options"), tr("Axes, start of branches, save."))
+        options.setIcon(icon("dots-vertical"))
+        options.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        self.log = options.add(tr("Logarithmic axes"), tr(_LOG), True)
+        self.by_time = options.add(tr("Time axis"), tr(_BY_TIME), False)
+        for action in (*self.charts.values(), self.log, self.by_time):
+            action.toggled.connect(self.changed)
+        self.from_zero = options.add(tr("Start branches at 0"), tr(_FROM_ZERO), False)
+        self.save = options.add(tr("Save…"), tr(_SAVE))
+        fill(QHBoxLayout(self), charts, options, margins=(0, 0, 0, 0))
+
+    def settings(self) -> ChartSettings:
+        """Return the settings."""
+        shown = tuple(key for key, action in self.charts.items() if action.isChecked())
+        return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time.isChecked())
+
+    def restore(self, settings: ChartSettings) -> None:
+        """Apply settings."""
+        for key, action in self.charts.items():
+            action.setChecked(key in settings.shown)
+        self.log.setChecked(settings.logarithmic)
+        self.from_zero.setChecked(settings.from_zero)
+        self.by_time.setChecked(settings.by_time)
+
+
+class RunList(QListWidget):
+    """List of runs, the oldest first; the name of the current run is bold.
+
+    Signals
+    -------
+    toggled(RunRecord, bool)
+        The user showed or hid a run.
+    """
+
+    toggled = Signal(object, bool)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._curves: Sequence[Curve] = ()
+        self.setFont(smaller(self.font()))
+        set_help(self, tr("Runs"), tr("Check the runs to plot; the current run is bold."))
+        self.itemChanged.connect(self._on_changed)
+        on_theme_change(self, lambda: self.set_curves(self._curves))
+
+    def set_curves(self, curves: Sequence[Curve]) -> None:
+        """List these runs."""
+        self._curves = curves
+        with QSignalBlocker(self):
+            while self.count() < len(curves):
+                self.addItem(QListWidgetItem())
+            while self.count() > len(curves):
+                self.takeItem(self.count() - 1)
+            for row, curve in enumerate(curves):
+                self._show(self.item(row), curve)
+
+    def _show(self, item: QListWidgetItem, curve: Curve) -> None:
+        record = curve.record
+        item.setText(record.name)
+        item.setIcon(swatch_icon(colour_of(curve)))
+        item.setCheckState(Qt.CheckState.Checked if curve.shown else Qt.CheckState.Unchecked)
+        font = self.font()
+        font.setBold(curve.current)
+        item.setFont(font)
+        values = {"title": tr(record.title), "count": counted(record.newest, record.unit)}
+        if record.parent is None:
+            item.setToolTip(tr("{title}: {count}.", **values))
+        else:
+            item.setToolTip(tr("{title}: {count}, branched from {parent}.", parent=record.parent.name, **values))
+
+    def _on_changed(self, item: QListWidgetItem) -> None:
+        self.toggled.emit(self._curves[self.row(item)].record, item.checkState() == Qt.CheckState.Checked)

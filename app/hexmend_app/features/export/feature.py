@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.export.export_settings import ExportSettings
+from hexmend_app.features.export.export_settings import ExportSettings, ReportSettings
 from hexmend_app.features.export.film_settings import FilmOptions, FilmSettings
 from hexmend_app.features.export.page_dialog import PageDialog
 from hexmend_app.features.export.picture_settings import PictureSettings
-from hexmend_app.features.export.report_settings import ReportSettings
 from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord

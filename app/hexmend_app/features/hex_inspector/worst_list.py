@@ -20,7 +20,7 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.metric_texts import described, metrics_offered
-from hexmend_app.widgets.tables.hex_table import shape_table
+from hexmend_app.widgets.tables.row_model import shape_table
 from hexmend_app.widgets.wording import counted
 
 _ORDER = (

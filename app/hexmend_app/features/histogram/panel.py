@@ -4,29 +4,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TypeVar
 
-from PySide6.QtCore import QPointF, Signal
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QFontMetrics
+from PySide6.QtWidgets import QInputDialog, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from superqt import QFlowLayout
 
 from hexmend_app.features.histogram.distributions import Shown, ShownHistogram, bin_colours, range_summary
 from hexmend_app.features.histogram.head import HistogramHead
 from hexmend_app.features.histogram.histogram_plot import HistogramPlot
-from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.distribution import Axis, Distribution
 from hexmend_app.scene.colour.colouring import Colouring
-from hexmend_app.theme.palette import BLUE, GREY, KEPT, MUTED
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.palette import BLUE, GREY, KEPT, MUTED, Role
+from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.inputs.menu_button import MenuButton
+from hexmend_app.widgets.legend import swatch_icon
 from hexmend_app.widgets.plots import show_tooltips
 
 _HELP = (
     "Number of hexes by value. Inverted hexes have a separate column at the left, for every metric. Drag over the plot "
     "to show only the hexes of a range, or click a bar to show only its hexes; double-click to show all hexes."
 )
+_MAX_NAME_WIDTH, _HEIGHT = 150, 20
+Entry = TypeVar("Entry", bound=QToolButton)
 
 
 class QualityHistogram(QWidget):
@@ -187,3 +193,64 @@ class QualityHistogram(QWidget):
         inverted = 0 if self._current is None else self._current.inverted
         self.plot.draw(shown.describe(colours=colours), inverted)
         self._show_range()
+
+
+class HistogramLegend(QWidget):
+    """Names and colours of the distributions; that of a kept one opens a menu.
+
+    Signals
+    -------
+    renamed(slot, name)
+        The user renamed a kept distribution.
+    removed(slot)
+        The user removed a kept distribution.
+    """
+
+    renamed = Signal(int, str)
+    removed = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._flow = QFlowLayout(self)
+        self._flow.setContentsMargins(0, 0, 0, 0)
+        self._flow.setHorizontalSpacing(4)
+        self._flow.setVerticalSpacing(0)
+        self._shown: tuple = ()
+        self.kept: dict[int, MenuButton] = {}
+
+    def show_entries(self, fixed: Sequence[tuple[str, Role]], kept: Sequence[tuple[int, str, Role]]) -> None:
+        """Show distributions by name and colour, and kept ones by slot, name and colour."""
+        if (*fixed, *kept) == self._shown:
+            return
+        self._shown = (*fixed, *kept)
+        clear(self._flow)
+        for name, colour in fixed:
+            self._flow.addWidget(_dressed(QToolButton(), name, colour))
+        self.kept = {slot: self._entry(slot, name, colour) for slot, name, colour in kept}
+        for entry in self.kept.values():
+            self._flow.addWidget(entry)
+
+    def _entry(self, slot: int, name: str, colour: Role) -> MenuButton:
+        entry = MenuButton(name, tr("Distribution of {name}: rename or remove it.", name=name))
+        entry.menu().addAction(tr("Rename…"), lambda: self._rename(slot, name))
+        entry.menu().addAction(tr("Remove"), lambda: self.removed.emit(slot))
+        return _dressed(entry, name, colour)
+
+    def _rename(self, slot: int, name: str) -> None:
+        normal = QLineEdit.EchoMode.Normal
+        text, accepted = QInputDialog.getText(self, tr("Rename"), tr("Name of the distribution:"), normal, name)
+        if accepted and text.strip():
+            self.renamed.emit(slot, text.strip())
+
+
+def _dressed(entry: Entry, name: str, colour: Role) -> Entry:
+    """Give an entry its name and colour."""
+    entry.setFont(smaller(entry.font()))
+    entry.setText(QFontMetrics(entry.font()).elidedText(name, Qt.TextElideMode.ElideMiddle, _MAX_NAME_WIDTH))
+    on_theme_change(entry, lambda: entry.setIcon(swatch_icon(colour)))
+    entry.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+    entry.setAutoRaise(True)
+    entry.setFixedHeight(_HEIGHT)
+    if entry.menu() is None:
+        entry.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # it does nothing
+    return entry

@@ -5,12 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QPushButton, QWidget
+
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host
-from hexmend_app.features.measure.measure_strip import MeasureStrip
+from hexmend_app.picture.appearance import Measurement
+from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
+from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.view_strip import ViewStrip
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
+
+_PROMPTS = (
+    "Click two points of the mesh in the view. A click close to a node takes its position.",
+    "Click the second point in the view.",
+)
 
 
 class FeatureMeasure(Feature):
@@ -59,3 +70,66 @@ class FeatureMeasure(Feature):
             self.strip.set_measurement(view.look.measurement)
             self.strip.setVisible(view.measuring or bool(view.look.measurement.points))
             self.canvas.set_measuring(view.measuring)
+
+
+class MeasureStrip(ViewStrip):
+    """Strip that shows a measurement as text.
+
+    Attributes
+    ----------
+    text : ElidingLabel
+        The distances and the angle, with the points in its tooltip.
+    """
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(tr("Measure"), parent)
+        self._measurement = Measurement()
+        self.text = ElidingLabel()
+        self.text.setFont(tabular(self.text.font()))
+        self._copy, self.clear_button = QPushButton(icon("content-copy"), tr("Copy")), QPushButton(tr("Clear"))
+        set_help(self._copy, tr("Copy measurement"), tr("Copy the points, distances and angle to the clipboard."))
+        set_help(self.clear_button, tr("Clear measurement"), tr("Remove the measured points."))
+        self.add((self.text, 1), self._copy, self.clear_button)
+        self._copy.clicked.connect(self.copy)
+
+    def set_measurement(self, measurement: Measurement) -> None:
+        """Show a measurement, or which points to click."""
+        self._measurement = measurement
+        count = len(measurement.points)
+        self.clear_button.setEnabled(count > 0)
+        self._copy.setEnabled(count > 1)
+        results = measurement_text(measurement).splitlines()[count:]
+        self.text.setText(" · ".join(results) or tr(_PROMPTS[count]))
+        self.text.setToolTip(measurement_text(measurement))
+
+    def copy(self) -> None:
+        """Copy the measurement to the clipboard."""
+        QGuiApplication.clipboard().setText(measurement_text(self._measurement))
+
+
+def measurement_text(measurement: Measurement) -> str:
+    """Return the points, distances and angle of a measurement as lines of text.
+
+    >>> print(measurement_text(Measurement(((0, 0, 0), (3, 0, 4)))))
+    Point 1: (0, 0, 0)
+    Point 2: (3, 0, 4)
+    Distance 1–2: 5 (Δx 3, Δy 0, Δz 4)
+    >>> print(measurement_text(Measurement(((1, 0, 0), (0, 0, 0), (0, 2, 0)))).splitlines()[-1])
+    Angle at 2: 90°
+    """
+    points = measurement.points
+    lines = [
+        tr("Point {number}: ({place})", number=k, place=", ".join(map(_number, point)))
+        for k, point in enumerate(points, 1)
+    ]
+    for k, (start, end, length) in enumerate(zip(points[:-1], points[1:], measurement.distances, strict=True), 1):
+        steps = ", ".join(f"Δ{axis} {_number(b - a)}" for axis, a, b in zip("xyz", start, end, strict=True))
+        distance = tr("Distance {start}–{end}: {length}", start=k, end=k + 1, length=_number(length))
+        lines.append(f"{distance} ({steps})")
+    if measurement.angle is not None:
+        lines.append(tr("Angle at 2: {angle:.5g}°", angle=measurement.angle))
+    return "\n".join(lines)
+
+
+def _number(value: float) -> str:
+    return f"{value:.5g}".replace("-", "−")

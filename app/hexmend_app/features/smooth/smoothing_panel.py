@@ -2,24 +2,46 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSpinBox, QVBoxLayout, QWidget
 
+from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from hexmend.parameters import Parameter, declared
+from hexmend.run import StoppingCriteria
+from hexmend.run.recipe import Stage
+from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.rule_form import RuleForm
-from hexmend_app.features.smooth.stage_form import StageForm
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.palette import MUTED, WORSE, Role
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import labelled, note, set_help, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
+from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.wording import counted, duration
 
 # Lines that most status sentences need at most.
 _LINES = 2
+_INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
+_FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
+_NODE = "Pause when the node with this number moves further than the limit below in one iteration."
+_MOVE = "Limit of the node's move, in mean edge lengths."
+_HEX = "Pause when q(H) of the hex with this number changes by more than the limit below in one iteration."
+_CHANGE = "Limit of the change of q(H)."
+_BACKTRACKS = (
+    "Pause when the line search (Algorithm A.5) shortens the step more often than this. Not available for methods that "
+    "search node by node."
+)
+#: Word for a breakpoint that is not set.
+_NONE = "none"
 
 
 class SmoothingPanel(QWidget):
@@ -136,3 +158,144 @@ class SmoothingPanel(QWidget):
             form.focus_problem()
             self._refused = True
             self._show_sentence(tr("Correct the marked value first."), WORSE)
+
+
+class BreakpointForm(QWidget):
+    """Form that edits the breakpoints of a run.
+
+    Signals
+    -------
+    changed(Breakpoints)
+        The breakpoints have changed.
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._form = ParameterForm(_declarations(0, 0), has_buttons=False)
+        fill(QVBoxLayout(self), self._form, margins=(0, 0, 0, 0))
+        self._form.changed.connect(lambda: self.changed.emit(self.breakpoints()))
+
+    def breakpoints(self) -> Breakpoints:
+        """Return the breakpoints set in the form."""
+        values = self._form.values()
+        return Breakpoints(**{name: None if value == _NONE else value for name, value in values.items()})
+
+    def set_breakpoints(self, breakpoints: Breakpoints) -> None:
+        """Show breakpoints."""
+        values = vars(breakpoints)
+        self._form.set_values({name: _NONE if value is None else value for name, value in values.items()})
+        self.changed.emit(breakpoints)
+
+    def set_mesh(self, hexes: int, nodes: int) -> None:
+        """Set the size of a new mesh; all breakpoints are removed."""
+        self._form.set_declarations(_declarations(hexes, nodes))
+        self.changed.emit(self.breakpoints())
+
+
+def _declarations(hexes: int, nodes: int) -> list[Parameter]:
+    """Return the declarations of the fields of `Breakpoints` for a mesh of a size."""
+
+    def number(name: str, count: int, label: str, help: str) -> Parameter:
+        return Parameter(name, int, _NONE, 0, max(count - 1, 0), label=label, help=help, automatic=_NONE)
+
+    return [
+        Parameter("inverts", bool, False, label="A hex inverts", help=_INVERTS),
+        Parameter("q_min_falls", bool, False, label="Minimum q drops", help=_FALLS),
+        number("node", nodes, "Node no.", _NODE),
+        Parameter("move", float, 0.1, 0, 9.999, label="Move above", unit="edges", help=_MOVE),
+        number("hex", hexes, "Hex no.", _HEX),
+        Parameter("change", float, 0.1, 0, 9.999, label="Change of q above", help=_CHANGE),
+        number("backtracks", 100, "Backtracks above", _BACKTRACKS),
+    ]
+
+
+class StageForm(QObject):
+    """Widgets that edit a `RunSetup`; the panel lays them out.
+
+    Parameters
+    ----------
+    setup : RunSetup
+        Edited by the form.
+
+    Attributes
+    ----------
+    method : QComboBox
+    help : QLabel
+        Description of the method.
+    parameters, stop : ParameterForm
+
+    Signals
+    -------
+    edited
+        The user has changed a value, valid or not.
+    """
+
+    edited = Signal()
+
+    def __init__(self, setup: RunSetup, parent: QObject | None = None):
+        super().__init__(parent)
+        self._setup = setup
+        self._name = ""
+        self.method = ComboBox()
+        let_shrink(self.method, 14)
+        set_help(self.method, tr("Method"), tr("Smoothing method, described below."))
+        for at, method in enumerate(METHODS.values()):
+            self.method.addItem(tr(method.title), method.name)
+            title, help = tr(method.title), tr(method.help)
+            about = f"<b>{escape(title)}</b> ({escape(method.name)})<br>{escape(help)}"
+            tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
+            self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
+        self.help = note()
+        self.parameters, self.stop = ParameterForm(), ParameterForm(declared(StoppingCriteria))
+        self.show_setup()
+        self.method.activated.connect(self._on_method)
+        for form in (self.parameters, self.stop):
+            form.changed.connect(self._on_edited)
+
+    def show_setup(self) -> None:
+        """Show the stage of the setup without sending a signal."""
+        stage = self._setup.stage
+        self._show_method(stage.smoother.name, stage.smoother.values())
+        with QSignalBlocker(self.stop):
+            self.stop.set_values(stage.stop.values())
+
+    def set_enabled(self, on: bool) -> None:
+        """Enable or disable editing."""
+        for widget in (self.method, self.parameters, self.stop):
+            widget.setEnabled(on)
+
+    @property
+    def invalid_form(self) -> ParameterForm | None:
+        """First form with an invalid value; None if all values are valid."""
+        return next((form for form in (self.parameters, self.stop) if form.problems()), None)
+
+    def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
+        """Show a method with its last values, updated by `values`; choices, such as the goal, are above numbers."""
+        method = METHODS[name]
+        self._name = name
+        self.method.setCurrentIndex(self.method.findData(name))
+        self.help.setText(tr(method.help))
+        self.help.setToolTip(tr("Source: {source}", source=method.source) if method.source else "")
+        with QSignalBlocker(self.parameters):
+            self.parameters.set_declarations(sorted(declared(method), key=lambda one: one.choices is None))
+            self.parameters.set_values(self._setup.values_of(name) | dict(values or {}))
+
+    def _on_method(self) -> None:
+        if self.method.currentData() != self._name:
+            self._show_method(self.method.currentData())
+            self._on_edited()
+
+    def _on_edited(self, *_: object) -> None:
+        self.edited.emit()
+        self._setup.set(self._name, self.parameters.values(), self._stage())
+
+    def _stage(self) -> Stage | None:
+        """Return the stage set in the forms; None while a value is invalid."""
+        if self.invalid_form is not None:
+            return None
+        try:
+            return Stage(METHODS[self._name](**self.parameters.values()), StoppingCriteria(**self.stop.values()))
+        except ParameterError:
+            return None

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
-from hexmend_app.features.tags.tag_strip import Tag, TagStrip
+from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.style import labelled, set_help, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_new_name
+from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.view_strip import ViewStrip
+from hexmend_app.widgets.wording import counted, figure
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
+
+_BUSY = "Hexes cannot be tagged during a run, even a paused one. Stop the run; its result is kept."
+_NAMELESS = "Enter a tag name in “Tag”."
+_NONE_SELECTED = "No hex selected: click a hex in the view, or press N for the worst, then press T to tag it."
 
 
 class FeatureTags(Feature):
@@ -109,3 +120,107 @@ class FeatureTags(Feature):
     def _all_shown(self) -> np.ndarray:
         shown = None if self.canvas is None else self.canvas.viewport.remaining_after_cut()
         return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)
+
+
+@dataclass(frozen=True)
+class Tag:
+    """Tag with its number of hexes, of inverted hexes, and the minimum q (None without hexes)."""
+
+    name: str
+    hexes: int
+    inverted: int
+    q_min: float | None
+
+    def describe(self) -> str:
+        """Return the figures as text.
+
+        >>> Tag("bad", 3, 1, 0.25).describe()
+        '3 hexes, 1 inverted, q min 0.2500'
+        """
+        figures = {"hexes": counted(self.hexes, "hex"), "inverted": f"{self.inverted:,}", "q": figure(self.q_min)}
+        return tr("{hexes}, {inverted} inverted, q min {q}", **figures)
+
+
+class TagStrip(ViewStrip):
+    """Strip with the name of a tag, and buttons that add hexes to it, isolate, rename or remove it.
+
+    Attributes
+    ----------
+    hex_button, shown_button, listed_button, isolate_button, rename_button, remove_button : QPushButton
+    """
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(tr("Tags"), parent)
+        self._tags: dict[str, Tag] = {}
+        self._busy = self._hex_selected = False
+        self._name = QComboBox()
+        self._name.setEditable(True)
+        self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list contains existing tags only
+        self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
+        self._name.setMinimumContentsLength(12)
+        self._name.setCurrentText("tagged")
+        set_help(self._name, tr("Tag"), tr("Name of a tag; tags are saved with the mesh in VTK and VTU files."))
+        self.hex_button = self._button(tr("Hex"), tr("Tag the selected hex, or remove the tag (T)."))
+        self.shown_button = self._button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
+        self.listed_button = self._button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
+        self.isolate_button = self._button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))
+        self.rename_button = self._button(tr("Rename…"), tr("Give the tag another name."))
+        self.remove_button = self._button(tr("Remove"), tr("Remove this tag from all hexes."))
+        self._about = ElidingLabel()
+        self._about.setAccessibleName(tr("About the tag"))
+        tint(self._about, MUTED)
+        buttons = (self.hex_button, self.shown_button, self.listed_button)
+        of_tag = (self.isolate_button, self.rename_button, self.remove_button)
+        self.add(labelled(tr("Tag"), self._name), self._name, *buttons, (self._about, 1), *of_tag)
+        self._name.editTextChanged.connect(self._refresh)
+        self._refresh()
+
+    def _button(self, text: str, help: str) -> QPushButton:
+        button = QPushButton(text)
+        set_help(button, text.removesuffix("…"), help)
+        return button
+
+    @property
+    def name(self) -> str:
+        """Name of the tag; "" if empty."""
+        return self._name.currentText().strip()
+
+    def set_name(self, name: str) -> None:
+        """Set the name of the tag."""
+        self._name.setCurrentText(name)
+
+    @property
+    def obstacle(self) -> str:
+        """Reason why the selected hex cannot be tagged, as a sentence; "" if it can."""
+        if self._busy:
+            return tr(_BUSY)
+        if not self.name:
+            return tr(_NAMELESS)
+        return "" if self._hex_selected else tr(_NONE_SELECTED)
+
+    def set_tags(self, tags: Sequence[Tag]) -> None:
+        """Set the tags of the mesh."""
+        name = self._name.currentText()
+        self._tags = {tag.name: tag for tag in tags}
+        with QSignalBlocker(self._name):
+            self._name.clear()
+            self._name.addItems(list(self._tags))
+            self._name.setCurrentText(name)
+        self._refresh()
+
+    def set_state(self, hex_selected: bool, busy: bool) -> None:
+        """Set whether a hex is selected, and whether a run prevents tagging."""
+        self._hex_selected, self._busy = hex_selected, busy
+        self._refresh()
+
+    def _refresh(self) -> None:
+        possible, tag = bool(self.name) and not self._busy, self._tags.get(self.name)
+        self.hex_button.setEnabled(not self.obstacle)
+        self.shown_button.setEnabled(possible)
+        self.listed_button.setEnabled(possible)
+        self.isolate_button.setEnabled(tag is not None)
+        for button in (self.rename_button, self.remove_button):
+            button.setEnabled(tag is not None and not self._busy)
+        about = tag.describe() if tag is not None and not self._busy else self.obstacle
+        self._about.setText(about)
+        self._about.setToolTip(about)

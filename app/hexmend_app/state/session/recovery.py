@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -23,7 +24,6 @@ from hexmend_app.state.mesh.document import Change
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.session import session_data
-from hexmend_app.state.settings.paths import state_folder
 from hexmend_app.state.tasks.task import Task
 from hexmend_app.translation import tr
 
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 PERIOD = 180_000
 #: Milliseconds between two of them during a run.
 RUN_PERIOD = 60_000
+#: Environment variable that overrides the folder.
+VARIABLE = "HEXMEND_STATE"
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,3 +284,15 @@ def _remove_sessions(folder: Path) -> None:
     for path in folder.glob(f"*{SUFFIX}"):
         with suppress(OSError):
             path.unlink()
+
+
+def state_folder() -> Path:
+    """Return the state folder of the user by the convention of the system; it may not exist yet."""
+    if override := os.environ.get(VARIABLE):
+        return Path(override).absolute()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local") / "Hexmend"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Application Support" / "Hexmend"
+    base = Path(os.environ.get("XDG_STATE_HOME") or "")
+    return (base if base.is_absolute() else Path.home() / ".local" / "state") / "hexmend"  # relative paths are ignored

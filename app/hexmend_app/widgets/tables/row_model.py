@@ -7,8 +7,10 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QColor
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
 from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.style import tabular
 
 
 class RowModel(QAbstractTableModel):
@@ -70,3 +72,31 @@ class RowModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         return f"<qt>{self.help(section)}</qt>" if role == Qt.ItemDataRole.ToolTipRole and self.help(section) else None
+
+
+def shape_table(table: QTableView, name: str, stretched: int) -> None:
+    """Style a table: single selection of rows, no grid and row numbers, and one stretched column.
+
+    Parameters
+    ----------
+    table : QTableView
+        Table with its model or columns set.
+    name : str
+        Accessible name.
+    stretched : int
+        Column that fills the remaining width.
+    """
+    table.setFont(tabular(table.font()))
+    table.setAccessibleName(name)
+    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+    table.setShowGrid(False)
+    table.setAlternatingRowColors(True)
+    table.setTabKeyNavigation(False)
+    table.setWordWrap(False)
+    table.verticalHeader().hide()
+    table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
+    header = table.horizontalHeader()
+    header.setHighlightSections(False)
+    header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+    header.setSectionResizeMode(stretched, QHeaderView.ResizeMode.Stretch)

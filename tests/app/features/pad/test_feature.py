@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.features.pad.pad_dialog import PadDialog
+from hexmend_app.features.pad.feature import PadDialog
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from tests.core.grids import grid

@@ -13,7 +13,7 @@ import pytest
 from hexmend import METHODS, HexmendError, StoppingCriteria
 from hexmend_app.state.session import recovery as recovery_module
 from hexmend_app.state.session import session_data
-from hexmend_app.state.settings.paths import VARIABLE
+from hexmend_app.state.session.recovery import VARIABLE
 from tests.app.driving import button, open_and_wait, press, smooth
 from tests.programs import run_python
 

@@ -11,11 +11,9 @@ from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QMessageBox
 from hexmend import METHODS, MotionRules, Recipe, Stage, StoppingCriteria, read_recipe, write_recipe
 from hexmend import smooth as smoothed
 from hexmend.gallery import make
-from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.feature import FeatureSmooth
-from hexmend_app.features.smooth.rule_form import RuleForm
-from hexmend_app.features.smooth.set_rules import rules_of_set, with_set_rules
-from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.features.smooth.rule_form import RuleForm, rules_of_set, with_set_rules
+from hexmend_app.features.smooth.smoothing_panel import BreakpointForm, SmoothingPanel
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.breakpoints import Breakpoints

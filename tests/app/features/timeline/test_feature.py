@@ -6,8 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QMenu, QSpinBox, QStyle, QStyleOptionSlider, QToolButton
 
 from hexmend import METHODS, Outcome, Step, StoppingCriteria
-from hexmend_app.features.timeline.run_bar import RunBar
-from hexmend_app.features.timeline.timeline_bar import TrackSlider
+from hexmend_app.features.timeline.timeline_bar import RunBar, TrackSlider
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, click_until, key, named, phase, press, sentence, type_text
 

@@ -3,7 +3,7 @@
 import pytest
 
 from hexmend_app.shell.features import FIRST, feature_names
-from hexmend_app.shell.start.window_start import WindowStart
+from hexmend_app.shell.start.program import WindowStart
 
 pytestmark = pytest.mark.slow
 

@@ -8,8 +8,8 @@ import pytest
 from PySide6.QtCore import QByteArray, QSettings
 
 import hexmend_app
+from hexmend_app.state.session.recovery import VARIABLE, state_folder
 from hexmend_app.state.settings import settings
-from hexmend_app.state.settings.paths import VARIABLE, state_folder
 from hexmend_app.state.settings.settings import Setting
 
 ALL = {name: value for name, value in vars(settings).items() if isinstance(value, Setting)}
