@@ -170,6 +170,7 @@ class Feature(QObject):
         super().__init__(host.dialog_parent)
         self.host = host
         self.session = host.session
+        self._seen = ChangeTracker()  # what `refresh` has shown
 
     @property
     def canvas(self) -> Canvas | None:
@@ -191,8 +192,8 @@ class Feature(QObject):
     def actions_ready(self) -> None:
         """Connect buttons to actions; called once when all actions exist, see `Host.action`."""
 
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Connect to the 3D view; called once when it exists."""
+    def canvas_ready(self) -> None:
+        """Connect to the 3D view; called once when `canvas` exists."""
 
     def refresh(self) -> None:
         """Show the current session; called once for all changes in a turn of the event loop.

@@ -116,7 +116,7 @@ class Window(QMainWindow):
         call_each(self.features.values(), lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:
-                feature.canvas_ready(self.canvas)
+                feature.canvas_ready()
         self.docks.restore(settings.PANELS.get())
         self.refresh()
         self.ready.emit()
@@ -147,7 +147,7 @@ class Window(QMainWindow):
         panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas.interactor, self.toggle_panels)
         panels.setContext(Qt.ShortcutContext.WidgetShortcut)
         for feature in self.features.values():
-            feature.canvas_ready(self.canvas)
+            feature.canvas_ready()
         self.refresh()
 
     # Host of features

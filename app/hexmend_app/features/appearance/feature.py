@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement
@@ -17,9 +16,6 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.boundary_classifier import BoundaryClasses
 from hexmend_app.translation import tr
 
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
-
 
 class FeatureAppearance(Feature):
     """Draws the session's mesh, and applies the colour panel to its appearance."""
@@ -27,7 +23,6 @@ class FeatureAppearance(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self._seen = ChangeTracker()
         self.panel = ColourPanel()
         self.panel.colours_changed.connect(lambda colours: view.change(colours=colours))
         self.panel.shading.clicked.connect(lambda on: view.change(page={"shading": on}))
@@ -62,9 +57,9 @@ class FeatureAppearance(Feature):
             help=tr("Metric or material, map and range of the colours, neutral colours, shading."),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Connect the colour bar, whose special swatches isolate hexes."""
-        canvas.colour_bar.special_clicked.connect(self._isolate)
+        self.canvas.colour_bar.special_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
         """Draw the current mesh, and show the present look in the panel."""

@@ -10,7 +10,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu, QWidget
 
 from hexmend.errors import ParameterError
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart, always
+from hexmend_app.feature import Action, Feature, Host, StatePart, always
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.state.view.camera_request import CameraData
@@ -20,7 +20,6 @@ from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.camera_animation import CameraAnimation
-    from hexmend_app.canvas.canvas import Canvas
 
 #: Direction, id, text, keys, icon and text in the tool bar.
 _DIRECTIONS = (
@@ -51,7 +50,6 @@ class FeatureCamera(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = ChangeTracker()
         self._cameras = self.session.saved_cameras
         self.menu = CamerasMenu(self._cameras, host.dialog_parent)
         self.menu.chosen.connect(self.go)
@@ -164,9 +162,9 @@ class FeatureCamera(Feature):
         """Yield the pose of the camera."""
         yield StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore)
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Refresh when the camera history changes."""
-        canvas.views_changed.connect(self.host.refresh_soon)
+        self.canvas.views_changed.connect(self.host.refresh_soon)
 
     def refresh(self) -> None:
         """Restore the camera of an opened session, and the camera from before an isolation once it ends."""

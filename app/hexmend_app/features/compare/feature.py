@@ -13,7 +13,7 @@ from hexmend.report.comparison import LINES, write_comparison
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.state.mesh.document import State
@@ -34,7 +34,6 @@ class FeatureCompare(Feature):
         super().__init__(host)
         session = self.session
         self._comparison, self._views = session.comparison, session.side_views
-        self._seen = ChangeTracker()
         panel = self.panel = ComparePanel(TICKED)
         panel.model.view_toggled.connect(self._toggle)
         panel.model.ticked.connect(host.refresh_soon)

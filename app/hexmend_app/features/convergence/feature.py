@@ -9,7 +9,7 @@ from superqt.utils import QSignalThrottler
 
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.convergence.charts import CHARTS, ChartSettings
 from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
@@ -35,7 +35,6 @@ class FeatureConvergence(Feature):
         self._document, self._run = session.document, session.run
         timeline = self._timeline = session.timeline
         self._history = session.history
-        self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved figure
         panel = self.panel = ConvergencePanel()
         self._throttler = QSignalThrottler(parent=panel)

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.translation import tr
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 
 class FeatureCut(Feature):
@@ -25,7 +21,6 @@ class FeatureCut(Feature):
         super().__init__(host)
         view = self._view = self.session.view
         self.session.about_to_save.connect(self._store_remaining_hexes)
-        self._seen = ChangeTracker()
         self.panel = CutPanel()
         self.panel.cut_changed.connect(view.set_cut)
         self.panel.plane_chosen.connect(view.choose_plane)
@@ -117,12 +112,12 @@ class FeatureCut(Feature):
             help=tr("Peel, shrink, isolate and hide hexes."),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Connect dragging and digging in the view."""
-        canvas.plane_dragged.connect(self._view.drag_plane)
-        canvas.box_dragged.connect(self._view.drag_box)
-        canvas.sphere_dragged.connect(self._view.drag_sphere)
-        canvas.hide_clicked.connect(self._dig)
+        self.canvas.plane_dragged.connect(self._view.drag_plane)
+        self.canvas.box_dragged.connect(self._view.drag_box)
+        self.canvas.sphere_dragged.connect(self._view.drag_sphere)
+        self.canvas.hide_clicked.connect(self._dig)
 
     def refresh(self) -> None:
         """Show the current cut."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.host import ChangeReport
 from hexmend_app.theme.spacing import fill
 from hexmend_app.translation import tr
@@ -24,7 +24,6 @@ class FeatureDoctor(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = ChangeTracker()
         self._listed: tuple[Finding, ...] = ()
         self.panel = DoctorPanel()
         self.panel.text.linkActivated.connect(self._follow)

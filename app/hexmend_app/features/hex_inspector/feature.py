@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hexmend.boundary import NodeClass
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.features.hex_inspector.worst_model import write_worst
@@ -16,10 +15,6 @@ from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_save
 from hexmend_app.widgets.wording import counted
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
-
 
 #: Descriptions of the classes of boundary nodes, which limit how a node slides.
 _BOUNDARY_CLASSES = {
@@ -39,7 +34,6 @@ class FeatureHexInspector(Feature):
         session = self.session
         selection = self._selection = session.selection
         self._document, self._view = session.document, session.view
-        self._seen = ChangeTracker()
         self.worst_list = WorstList()
         self.worst_list.chosen.connect(self._go_to_worst)
         self.worst_list.save_button.clicked.connect(self.ask)
@@ -165,9 +159,9 @@ class FeatureHexInspector(Feature):
             scrolls=True,
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Connect to clicks in the view."""
-        canvas.clicked.connect(self._on_clicked)
+        self.canvas.clicked.connect(self._on_clicked)
 
     def refresh(self) -> None:
         """Update the selection and the list of the worst hexes."""

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.quality import METRICS, measure
 from hexmend.report.documents import write_text
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
@@ -39,7 +39,6 @@ class FeatureHistogram(Feature):
         super().__init__(host)
         self._view = self.session.view
         self._document, self._snapshots = self.session.document, self.session.snapshots
-        self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last export
         self._initial: Distribution | None = None
         self._current: Distribution | None = None

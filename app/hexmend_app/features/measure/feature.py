@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.picture.appearance import Measurement
 from hexmend_app.theme.style import icon, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.view_strip import ViewStrip
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 _PROMPTS = (
     "Click two points of the mesh in the view. A click close to a node takes its position.",
@@ -30,7 +26,6 @@ class FeatureMeasure(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view
-        self._seen = ChangeTracker()
         self.strip = MeasureStrip(host.dialog_parent)
         self.strip.closed.connect(self._view.end_measuring)
         self.strip.clear_button.clicked.connect(self._view.clear_measurement)
@@ -58,10 +53,10 @@ class FeatureMeasure(Feature):
             enabled=lambda: len(self._view.look.measurement.points) > 1,
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Connect to points picked in the view, and add the strip below it."""
-        canvas.measured.connect(self._view.measure)
-        canvas.frame.addWidget(self.strip)
+        self.canvas.measured.connect(self._view.measure)
+        self.canvas.frame.addWidget(self.strip)
 
     def refresh(self) -> None:
         """Show the measurement."""

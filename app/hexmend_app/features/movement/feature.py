@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Feature, Host, Panel, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.picture.displacement import Displacement
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
@@ -18,7 +18,6 @@ class FeatureMovement(Feature):
         super().__init__(host)
         self._document, view = self.session.document, self.session.view
         self._view = view
-        self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(movement=traces))
         panel.show_newly.clicked.connect(self._show_newly_invalid)

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtGui import QGuiApplication
 
-from hexmend_app.canvas.canvas import Canvas
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.quality.quality_bar import QualityBar, figures_text
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.settings import settings
@@ -20,7 +19,6 @@ class FeatureQuality(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = ChangeTracker()
         self.bar = QualityBar(host.dialog_parent)
         self.bar.isolate_requested.connect(self._isolate)
         self.bar.hide()
@@ -46,9 +44,9 @@ class FeatureQuality(Feature):
             handle=self._copy,
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Show the key figures in the view."""
-        Overlay(self.bar, canvas.interactor, (0.0, 1.0))
+        Overlay(self.bar, self.canvas.interactor, (0.0, 1.0))
         self._show_bar()
 
     def refresh(self) -> None:

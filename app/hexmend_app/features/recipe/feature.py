@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
@@ -21,7 +21,6 @@ class FeatureRecipe(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._draft, self._smoothing = self.session.recipe_draft, self.session.run
-        self._seen = ChangeTracker()
         panel = self.panel = RecipePanel(self._draft, self.session.run_setup)
         panel.run_button.clicked.connect(self.run)
         panel.load_requested.connect(self.ask_load)

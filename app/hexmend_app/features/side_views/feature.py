@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from hexmend_app.canvas.view_captions import Caption
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.view.side_views import NOW
 from hexmend_app.theme.palette import BLUE, KEPT, Role
 from hexmend_app.translation import tr
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 #: Distance that a key moves the wipe, relative to the width of the view.
 STEP = 0.02
@@ -25,7 +21,6 @@ class FeatureSideViews(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._views, self._snapshots = self.session.side_views, self.session.snapshots
-        self._seen = ChangeTracker()
 
     def actions(self) -> Iterable[Action]:
         """Yield the actions that add, wipe and close side views."""
@@ -66,12 +61,12 @@ class FeatureSideViews(Feature):
             in_view=True,
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Connect the 3D view."""
-        canvas.frame.view_closed.connect(self._views.close_view)
-        canvas.frame.wipe_row.chosen.connect(self._views.choose_wiped)
-        canvas.frame.edge.moved.connect(self._views.move_wipe)
-        canvas.frame.edge.stepped.connect(self._step_wipe)
+        self.canvas.frame.view_closed.connect(self._views.close_view)
+        self.canvas.frame.wipe_row.chosen.connect(self._views.choose_wiped)
+        self.canvas.frame.edge.moved.connect(self._views.move_wipe)
+        self.canvas.frame.edge.stepped.connect(self._step_wipe)
 
     def refresh(self) -> None:
         """Show the side views and their captions."""

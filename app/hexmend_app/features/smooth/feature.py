@@ -15,7 +15,6 @@ from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import (
     Action,
     ButtonAppearance,
-    ChangeTracker,
     Feature,
     Host,
     Panel,
@@ -46,7 +45,6 @@ class FeatureSmooth(Feature):
         commands, smoothing = session.commands, session.run
         self._smoothing = smoothing
         commands.memory_short.connect(self._ask_for_memory)
-        self._seen = ChangeTracker()
         self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
         panel.breakpoint_form.changed.connect(smoothing.set_breakpoints)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.layer_switch import ordered_layers
 from hexmend_app.translation import tr
@@ -19,7 +19,6 @@ class FeatureStructure(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view
-        self._seen = ChangeTracker()
         self.panel = StructurePanel()
         self.panel.structure_changed.connect(lambda structure: self._view.change(structure=structure))
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
+from hexmend_app.feature import Action, Feature, Host, StatePart
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.style import labelled, set_help, tint
 from hexmend_app.translation import tr
@@ -18,9 +17,6 @@ from hexmend_app.widgets.dialogs.questions import ask_new_name
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.view_strip import ViewStrip
 from hexmend_app.widgets.wording import counted, figure
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 _BUSY = "Hexes cannot be tagged during a run, even a paused one. Stop the run; its result is kept."
 _NAMELESS = "Enter a tag name in “Tag”."
@@ -33,7 +29,6 @@ class FeatureTags(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session, commands = self.session, self.session.commands
-        self._seen = ChangeTracker()
         strip = self.strip = TagStrip(host.dialog_parent)
         strip.closed.connect(strip.hide)
         strip.hex_button.clicked.connect(self._toggle)
@@ -73,9 +68,9 @@ class FeatureTags(Feature):
         """Yield the name for the next tag."""
         yield StatePart(name="tag", data=str, to_data=lambda: self.strip.name, restore=self.strip.set_name)
 
-    def canvas_ready(self, canvas: Canvas) -> None:
+    def canvas_ready(self) -> None:
         """Add the strip below the view."""
-        canvas.frame.addWidget(self.strip)
+        self.canvas.frame.addWidget(self.strip)
 
     def refresh(self) -> None:
         """Show the tags of the mesh."""

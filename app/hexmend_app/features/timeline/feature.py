@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from hexmend_app.feature import Action, ButtonAppearance, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
@@ -33,7 +33,6 @@ class FeatureTimeline(Feature):
         session = self.session
         self._smoothing = session.run
         timeline = self._timeline = session.timeline
-        self._seen = ChangeTracker()
         bar = self.panel = TimelineBar()
         bar.runs.activated.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.slider.valueChanged.connect(lambda number: timeline.go_soon(timeline.record, number))
