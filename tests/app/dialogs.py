@@ -5,9 +5,8 @@ from collections.abc import Callable
 from PySide6.QtWidgets import QDialog
 
 from hexmend_app.features.pad.feature import PadDialog
+from hexmend_app.shell.command_palette import CommandPalette, choice_entries, command_entries
 from hexmend_app.shell.keys import KeysPage
-from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.widgets.dialogs.waiting import waiting_dialog
 

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QPoint, Qt
 
 from hexmend_app.feature import Action, Panel, PanelPlace
+from hexmend_app.shell.command_palette import CommandPalette, choice_entries, command_entries, panel_entries
 from hexmend_app.shell.keys import KeysPage
-from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:

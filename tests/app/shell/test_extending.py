@@ -16,8 +16,8 @@ from hexmend.cli.main import main
 from hexmend_app.picture import colour_map, from_toml, layer_switch
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
+from hexmend_app.shell.command_palette import command_entries, name_of
 from hexmend_app.shell.keys import as_markdown
-from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import named, open_and_wait
@@ -157,7 +157,7 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
 ):
     window = fresh_window
     assert window.action("panel_notes").text().replace("&", "") == "Notes"
-    assert "Export notes…" in {entry.name for entry in command_entries(window.window_actions)}
+    assert "Export notes…" in {name_of(entry) for entry in command_entries(window.window_actions)}
     _choose_and_write(window, 3, "thin")
     _choose_and_write(window, 5, "at the weld")
     session = tmp_path / "work.hexmend"
@@ -238,7 +238,7 @@ def test_panel_menu_palette_and_map_box_have_them(window):
     assert row.box.text() == "Bounding box"
     assert next(label.text() for label in row.entries.findChildren(QLabel)).count("×") == 2
     action = window.action("show_bounding-box")
-    assert "Bounding box: off" in {entry.name for entry in command_entries(window.window_actions)}
+    assert "Bounding box: off" in {name_of(entry) for entry in command_entries(window.window_actions)}
     assert "| Bounding box | `Ctrl+Shift+B` |" in as_markdown(window.menus.declared())
     action.trigger()
     window.refresh()

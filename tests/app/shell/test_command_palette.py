@@ -11,9 +11,16 @@ from PySide6.QtWidgets import QLineEdit, QMainWindow, QWidget
 from hexmend import METHODS, METRICS
 from hexmend_app.feature import Panel, PanelPlace
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
-from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
-from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
+from hexmend_app.shell.command_palette import (
+    CommandPalette,
+    choice_entries,
+    command_entries,
+    entry,
+    name_of,
+    panel_entries,
+    ranked,
+    title_of,
+)
 from hexmend_app.shell.panels.docks import Docks
 from tests.core.grids import grid
 
@@ -22,7 +29,7 @@ from tests.core.grids import grid
 def palette(qtbot):
     executed = []
     widget = CommandPalette(
-        PaletteEntry(name=name, help=help, run=partial(executed.append, name))
+        entry(name, partial(executed.append, name), help)
         for name, help in (
             ("Fit", "Show the whole mesh."),
             ("Along X", "Look along the X axis."),
@@ -56,7 +63,9 @@ def test_arrow_keys_move_in_the_list_while_the_field_has_the_focus(palette):
 
 def test_a_command_that_cannot_be_run_now_is_listed_and_not_run(qtbot):
     executed = []
-    palette = CommandPalette([PaletteEntry(name="Film", run=partial(executed.append, 1), enabled=False)])
+    film = entry("Film", partial(executed.append, 1))
+    film.setEnabled(False)
+    palette = CommandPalette([film])
     qtbot.addWidget(palette)
     palette.open()
     QTest.keyClicks(field(palette), "film")
@@ -69,21 +78,23 @@ def test_a_command_that_cannot_be_run_now_is_listed_and_not_run(qtbot):
 # Ranking of the entries of the command palette for a typed text.
 
 
-ENTRIES = [
-    PaletteEntry(name=name, run=print, help=help, kind=kind)
-    for name, help, kind in (
-        ("Reset", "Put all nodes back; undo takes that back too.", ""),
-        ("Redo", "Do again what undo took back.", ""),
-        ("Undo", "Take back the last change of the mesh.", ""),
-        ("Run or pause", "Run the chosen method.", ""),
-        ("Save mesh as…", "", ""),
-        ("Mend", "Untangles.", "Method"),
-        ("Smart Laplacian", "", "Method"),
-        ("Recommended smoothing", "Mends.", ""),
-        ("Scaled Jacobian", "", "Colour by"),
-        ("Tolerance", "Where it stops.", "In Run"),
-    )
-]
+@pytest.fixture
+def entries(qapp):
+    return [
+        entry(name, print, help, kind)
+        for name, help, kind in (
+            ("Reset", "Put all nodes back; undo takes that back too.", ""),
+            ("Redo", "Do again what undo took back.", ""),
+            ("Undo", "Take back the last change of the mesh.", ""),
+            ("Run or pause", "Run the chosen method.", ""),
+            ("Save mesh as…", "", ""),
+            ("Mend", "Untangles.", "Method"),
+            ("Smart Laplacian", "", "Method"),
+            ("Recommended smoothing", "Mends.", ""),
+            ("Scaled Jacobian", "", "Colour by"),
+            ("Tolerance", "Where it stops.", "In Run"),
+        )
+    ]
 
 
 RANKED = [
@@ -100,19 +111,20 @@ RANKED = [
 
 
 @pytest.mark.parametrize(("text", "names"), RANKED)
-def test_matches_in_names_rank_before_matches_in_help(text, names):
-    assert [entry.name for entry in ranked(ENTRIES, text)] == names
+def test_matches_in_names_rank_before_matches_in_help(entries, text, names):
+    assert [name_of(one) for one in ranked(entries, text)] == names
 
 
-def test_an_empty_text_keeps_the_order():
-    assert ranked(ENTRIES, " ") == ENTRIES
+def test_an_empty_text_keeps_the_order(entries):
+    assert ranked(entries, " ") == entries
 
 
-def test_commands_that_cannot_be_run_now_come_last_and_only_for_a_text():
-    film = PaletteEntry(name="Save film…", run=print, help="Save the run as an animation.", enabled=False)
-    assert ranked([film, *ENTRIES], "") == ENTRIES
-    assert ranked([film, *ENTRIES], "animation") == [film]
-    assert [entry.name for entry in ranked([film, *ENTRIES], "save")] == ["Save mesh as…", "Save film…"]
+def test_commands_that_cannot_be_run_now_come_last_and_only_for_a_text(entries):
+    film = entry("Save film…", print, "Save the run as an animation.")
+    film.setEnabled(False)
+    assert ranked([film, *entries], "") == entries
+    assert ranked([film, *entries], "animation") == [film]
+    assert [name_of(one) for one in ranked([film, *entries], "save")] == ["Save mesh as…", "Save film…"]
 
 
 # Entries of the command palette.
@@ -129,27 +141,27 @@ def test_panels_have_entries_that_show_them(shown):
     docks = Docks(main)
     docks.add(panels)
     shown(main, 900, 500)
-    entries = {entry.title: entry for entry in panel_entries(docks, panels)}
+    entries = {title_of(one): one for one in panel_entries(docks, panels)}
     assert list(entries) == ["Panel: Boxes", "Panel: Other"]
-    entries["Panel: Other"].run()
+    entries["Panel: Other"].trigger()
     assert docks.is_visible("other")
 
 
 def test_choosing_a_method_keeps_its_last_parameters(host):
     run_setup = host.session.run_setup
-    entries = {entry.title: entry for entry in choice_entries(host.session)}
+    entries = {title_of(one): one for one in choice_entries(host.session)}
     for method in METHODS.values():
-        entries[f"Method: {method.title}"].run()
+        entries[f"Method: {method.title}"].trigger()
         assert run_setup.method == method.name
         assert run_setup.smoother == run_setup.smoother_of(method.name)
         assert method.title in run_setup.reason
 
 
 def test_choosing_a_metric_colours_by_it(host, qtbot):
-    entries = {entry.title: entry for entry in choice_entries(host.session)}
+    entries = {title_of(one): one for one in choice_entries(host.session)}
     for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
         with qtbot.waitSignal(host.session.view.metric_wanted) as signal:
-            entries[f"Colour by: {metric.title}"].run()
+            entries[f"Colour by: {metric.title}"].trigger()
         assert signal.args == [metric.name]
 
 
@@ -161,7 +173,7 @@ def test_commands_have_entries_which_say_what_is_enabled_and_those_that_open_pan
         actions[id].triggered.connect(lambda _=False, id=id: executed.append(id))
     actions["edges"].setCheckable(True)
     entries = list(command_entries(actions))
-    assert [entry.title for entry in entries if entry.enabled] == ["Fit", "Edges: off"]
-    assert [entry.title for entry in entries if not entry.enabled] == ["Undo"]
-    entries[0].run()
+    assert [title_of(one) for one in entries if one.isEnabled()] == ["Fit", "Edges: off"]
+    assert [title_of(one) for one in entries if not one.isEnabled()] == ["Undo"]
+    entries[0].trigger()
     assert executed == ["fit"]
