@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from PySide6.QtCore import QTimer
+
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.export.export_settings import ExportSettings, ReportSettings
 from hexmend_app.features.export.film_settings import FilmOptions, FilmSettings
@@ -16,7 +18,6 @@ from hexmend_app.picture import Page, Scene
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.translation import tr
-from hexmend_app.widgets.incremental_task import IncrementalTask
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -38,12 +39,11 @@ class FeatureExport(Feature):
         self._scene: Scene | None = None  # of the last picture
         self._film = FilmOptions()  # of the last film
         self._record: RunRecord | None = None  # of the film that is drawn
-        self._subject, self._path = "", Path()
-        self._drawing = IncrementalTask(
-            host.busy, "export", tr("Cancel the export; files already written are kept."), self
-        )
-        self._drawing.finished.connect(self._on_finished)
-        self._drawing.failed.connect(self._on_failed)
+        self._subject, self._path, self._of = "", Path(), ""
+        self._steps: Generator[Any] | None = None  # one for each turn of the event loop
+        self._drawn = 0
+        self._timer = QTimer(self, interval=0)
+        self._timer.timeout.connect(self._draw_next)
         self.session.document.mesh_replaced.connect(self.cancel)
 
     def actions(self) -> Iterable[Action]:
@@ -92,11 +92,15 @@ class FeatureExport(Feature):
     @property
     def going_on(self) -> bool:
         """True while pictures are being drawn."""
-        return self._drawing.going_on
+        return self._steps is not None
 
     def cancel(self) -> None:
         """Cancel the export; files already written are kept."""
-        self._drawing.cancel()
+        if self._steps is not None:
+            self._timer.stop()
+            self._steps.close()
+            self._steps = None
+            self.host.busy.done("export")
 
     def refresh(self) -> None:
         """Cancel the film if its run was deleted."""
@@ -252,16 +256,29 @@ class FeatureExport(Feature):
         )
 
     def _start(self, subject: str, steps: Generator[Any], path: Path, count: int | None = None) -> None:
-        """Draw picture by picture in the background; the last step writes the file."""
-        total = tr(" of {count}", count=count) if count is not None else ""
-        self._drawing.begin(
-            steps,
-            lambda drawn: tr("{name}: drawing picture {number}{of}…", name=path.name, number=drawn + 1, of=total),
-        )
-        self._subject, self._path, self._record = subject, path, None
+        """Draw picture by picture in the background, in place of another export; the last step writes the file."""
+        self.cancel()
+        self._steps, self._drawn, self._record = steps, 0, None
+        self._subject, self._path, self._of = subject, path, "" if count is None else tr(" of {count}", count=count)
+        self._timer.start()
+        self._show_progress()
 
-    def _on_finished(self) -> None:
-        self.host.messages.show_info(tr("{subject} saved to {path}", subject=self._subject, path=self._path))
+    def _show_progress(self) -> None:
+        number = self._drawn + 1
+        text = tr("{name}: drawing picture {number}{of}…", name=self._path.name, number=number, of=self._of)
+        help = tr("Cancel the export; files already written are kept.")
+        self.host.busy.show_work("export", text, tr("Cancel"), help, self.cancel)
 
-    def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error(tr("{subject} not saved", subject=self._subject), str(error))
+    def _draw_next(self) -> None:
+        try:
+            picture = next(self._steps, None)
+        except Exception as error:  # any error is reported
+            self.cancel()
+            self.host.messages.show_error(tr("{subject} not saved", subject=self._subject), str(error))
+            return
+        if picture is None:
+            self.cancel()
+            self.host.messages.show_info(tr("{subject} saved to {path}", subject=self._subject, path=self._path))
+        else:
+            self._drawn += 1
+            self._show_progress()

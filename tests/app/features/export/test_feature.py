@@ -84,6 +84,14 @@ def test_a_film_can_be_cancelled(window, qtbot, export, tmp_path):
     assert not path.exists()
 
 
+def test_a_film_that_cannot_be_written_is_reported(window, qtbot, export):
+    stepped(window, qtbot, 2)
+    path = export("film", "missing/run.gif")
+    assert window.messages.messages()[-1][:2] == ("error", "Film not saved")
+    assert window.busy.isHidden()
+    assert not path.exists()
+
+
 @pytest.mark.slow
 def test_the_set_contains_the_opened_the_current_and_the_compared_meshes(window, qtbot, export):
     stepped(window, qtbot, 4)
