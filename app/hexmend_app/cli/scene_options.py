@@ -8,8 +8,7 @@ from math import isfinite
 from typing import Any
 
 from hexmend_app.cli.numbers import invalid_value, numbers
-from hexmend_app.codec.conversion import decode, encode
-from hexmend_app.codec.value_text import parse_value
+from hexmend_app.codec.conversion import decode, encode, parse_value
 from hexmend_app.picture import CutKind, Plane, Range, Scene, read_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.colours import colour_quantity

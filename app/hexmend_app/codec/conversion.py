@@ -1,7 +1,7 @@
-"""Conversion of dataclasses to plain data and back, for scenes and sessions; msgspec checks types and bounds.
+"""Tables of keys, and conversion of dataclasses to plain data and back, for scenes and sessions.
 
 Tables of scenes and other dataclasses become dicts of their keys, enumerations their values, tuples and frozensets
-lists. Errors name the place of a value, such as `[bar] ticks`, and what is expected.
+lists. msgspec checks types and bounds. Errors name the place of a value, such as `[bar] ticks`, and what is expected.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import msgspec
 
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.parameters import Parametrised, from_values
+from hexmend.toml_text import parse_toml
 from hexmend_app.codec.option import Option, in_words, options_of
 
 #: Place of a value: names of tables, numbers of entries and the key, outermost first.
@@ -246,3 +247,42 @@ def _repr_of(value: Any) -> str:
     except RecursionError:  # deeper nesting than `repr` supports
         return "a table"
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def option(default: Any = None, **bounds: Any) -> Any:
+    """Declare a key as a field; its type is the annotation of the field, and `bounds` are fields of `Option`."""
+    default_argument = "default_factory" if callable(default) else "default"
+    return dataclasses.field(**{default_argument: default}, metadata={"key": bounds})
+
+
+@dataclasses.dataclass(frozen=True)
+class ConfigTable:
+    """Base of tables; checks values and converts them to their types on construction.
+
+    Raises
+    ------
+    ParameterError
+        If a value is invalid; names the key, the value and what was expected.
+    """
+
+    def __post_init__(self) -> None:
+        for option in options_of(type(self)):  # type: ignore[arg-type]  # mypy takes no class as hashable
+            object.__setattr__(self, option.field, decode_key(option, getattr(self, option.field)))
+        self.check()
+
+    def check(self) -> None:
+        """Raise `ParameterError` if keys contradict each other."""
+
+
+def parse_value(text: str) -> Any:
+    """Return a value of TOML, a list without its brackets, or a text without quotes.
+
+    >>> parse_value("0.5"), parse_value("0.2,0.8"), parse_value("true"), parse_value("-x"), parse_value("{ rings = 0 }")
+    (0.5, [0.2, 0.8], True, '-x', {'rings': 0})
+    """
+    for notation in (text, f"[{text}]"):
+        try:
+            return parse_toml(f"value = {notation}", "a value")["value"]
+        except ParameterError:
+            continue
+    return text

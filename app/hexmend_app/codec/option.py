@@ -90,12 +90,6 @@ def in_words(kind: Any) -> str:
     return "a list" if origin in (tuple, list, frozenset) else _WORDS.get(kind, "a table")
 
 
-def option(default: Any = None, **bounds: Any) -> Any:
-    """Declare a key as a field; its type is the annotation of the field, and `bounds` are fields of `Option`."""
-    default_argument = "default_factory" if callable(default) else "default"
-    return dataclasses.field(**{default_argument: default}, metadata={"key": bounds})
-
-
 @cache
 def options_of(kind: Any) -> tuple[Option, ...]:
     """Return the declarations of the keys of a table or another dataclass, which are its fields, in order."""

@@ -3,7 +3,7 @@
 A `Scene` consists of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); its files are TOML, see scene.md.
 """
 
-from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.conversion import ConfigTable
 from hexmend_app.picture.camera import Camera, PicturePanel, WipeLayout
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.picture.cut import Cut, CutKind, CutStyle

@@ -9,8 +9,7 @@ from enum import StrEnum
 from itertools import pairwise
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 from hexmend_app.picture.camera_pose import Vector
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexmend.errors import ParameterError
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 from hexmend_app.picture.camera_pose import CameraPose, Vector
 
 #: Names of view directions.

@@ -8,8 +8,7 @@ from enum import StrEnum
 
 from hexmend.errors import ParameterError
 from hexmend.quality import METRICS, HexQuantity
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend_app.picture.visibility import known_metric

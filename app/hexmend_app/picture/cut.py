@@ -12,8 +12,7 @@ import numpy as np
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 from hexmend_app.picture.cut_shapes import Box, Depth, Plane, Slab, Sphere
 
 #: Maximum number of planes, and maximum length of the text that lists the remaining hexes.

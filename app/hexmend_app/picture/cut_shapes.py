@@ -12,8 +12,7 @@ import numpy as np
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 from hexmend_app.picture.camera_pose import Vector
 
 #: Angle in degrees within which a plane that is rotated by hand snaps to an axis.

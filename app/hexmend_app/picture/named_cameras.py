@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.conversion import decode
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, decode, option
 from hexmend_app.picture.camera import Camera
 
 #: Maximum number of named cameras of a scene or a window.

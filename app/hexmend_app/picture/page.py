@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from hexmend.errors import ParameterError
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 
 MM_PER_INCH, PT_PER_INCH = 25.4, 72.0
 

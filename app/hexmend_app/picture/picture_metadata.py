@@ -18,9 +18,7 @@ from hexmend.io.format_lookup import format_by_place
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
 from hexmend.toml_text import parse_toml
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.conversion import decode
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, decode, option
 from hexmend_app.picture.camera import MAX_PANELS, PicturePanel
 from hexmend_app.picture.scene import Scene
 from hexmend_app.picture.scene_files import from_toml, table_text, to_toml

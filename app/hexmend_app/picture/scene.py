@@ -7,7 +7,7 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import option
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose

@@ -10,8 +10,7 @@ from typing import Any
 from hexmend.errors import ParameterError
 from hexmend.io.storage.toml_files import read_toml, write_toml
 from hexmend.toml_text import parse_toml
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.conversion import decode, encode
+from hexmend_app.codec.conversion import ConfigTable, decode, encode
 from hexmend_app.codec.option import options_of
 from hexmend_app.picture.camera import Camera
 from hexmend_app.picture.scene import Scene

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from hexmend.errors import ParameterError
 from hexmend.quality import METRICS
-from hexmend_app.codec.config_table import ConfigTable
-from hexmend_app.codec.option import option
+from hexmend_app.codec.conversion import ConfigTable, option
 
 #: Largest number of a hex that can be listed.
 _MAX_NUMBER = 2**31 - 1

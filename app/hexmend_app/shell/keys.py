@@ -42,20 +42,6 @@ def name_of(action: Action) -> str:
     return action.text.replace("&", "").rstrip("…")
 
 
-def as_markdown(actions: Iterable[Action]) -> str:
-    """Return the page `docs/reference/keys.md`: the actions that have a key."""
-    lines = [
-        "# Mouse and keys",
-        "",
-        "The command palette (`Ctrl+Shift+P`) lists all actions, also those without a key.",
-        "",
-    ]
-    for title, rows in tables(actions):
-        if keyed := [f"| {name} | `{keys}` |" for name, keys, _ in rows if keys]:
-            lines += [f"## {title}", "", "| action | keys |", "|---|---|", *keyed, ""]
-    return "\n".join(lines)
-
-
 class KeysPage(QDialog):
     """List of every action with its keys, and a text field that filters it."""
 

@@ -9,7 +9,7 @@ from hexmend_app.theme.style import on_theme_change
 
 
 class LinkLabel(QLabel):
-    """Label of rich text with links, which are followed by mouse or keyboard.
+    """Label of rich text, which can be selected, with links, which are followed by mouse or keyboard.
 
     A text that begins with a link needs a zero-width space before it: Shift+Tab cannot leave a link at the start of a
     label.
@@ -25,9 +25,7 @@ class LinkLabel(QLabel):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setTextFormat(Qt.TextFormat.RichText)
-        self.setTextInteractionFlags(
-            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
-        )
+        self.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
         self.linkActivated.connect(lambda link: self.followed.emit(int(link)) if link.isdigit() else None)
         on_theme_change(self, lambda: self.setText(self.text()))
 

@@ -17,9 +17,9 @@ from hexmend_app.picture import colour_map, from_toml, layer_switch
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.command_palette import command_entries, name_of
-from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
+from scripts.write_keys import as_markdown
 from tests.app.driving import named, open_and_wait
 from tests.app.features.structure.layers import count
 from tests.core.test_extending import write_distribution

@@ -10,8 +10,8 @@ from PySide6.QtTest import QTest
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.feature import MENUS
 from hexmend_app.picture import Box, Cut, Plane
-from hexmend_app.shell.keys import as_markdown
 from hexmend_app.state.mesh.document import State
+from scripts.write_keys import as_markdown
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled

@@ -14,7 +14,7 @@ from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
-from hexmend_app.features.quality.quality_bar import QualityBar
+from hexmend_app.features.quality.feature import QualityBar
 from hexmend_app.picture import Page, Scene, Show
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.page.page_mesh import PageMesh

@@ -6,7 +6,7 @@ import dataclasses
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QCheckBox, QLabel, QSizePolicy, QWidget
 
@@ -65,8 +65,7 @@ class ColourPanel(QWidget):
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values(), MATERIAL):
-            self._metric.addItem(tr(metric.title), metric.name)
-            self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
+            self._metric.add(tr(metric.title), described(metric), metric.name)
         self._metric.insertSeparator(len(METRICS))
         self._metric.insertSeparator(self._metric.count() - 1)
         self._map = MapBox()
@@ -251,8 +250,8 @@ class MapBox(ComboBox):
         if self.findData(maps[0]) < 0:
             self.clear()
             for at, key in enumerate(maps):
-                self.addItem(_swatch(key), tr(COLOUR_MAPS[key].title) or key, key)
-                self.setItemData(at, tr(COLOUR_MAPS[key].help), Qt.ItemDataRole.ToolTipRole)
+                self.add(tr(COLOUR_MAPS[key].title) or key, tr(COLOUR_MAPS[key].help), key)
+                self.setItemIcon(at, _swatch(key))
         self.setCurrentIndex(max(self.findData(name), 0))
         set_help(self, tr("Colour map"), tr(COLOUR_MAPS[CHANGE_MAP].help) if change else tr(_VALUE_MAPS_HELP))
 

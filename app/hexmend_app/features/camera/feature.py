@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, Feature, Host, StatePart, always
 from hexmend_app.picture import Camera, camera_from, camera_text
+from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.cut_shapes import Plane
-from hexmend_app.state.view.camera_request import CameraData
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
@@ -160,7 +160,7 @@ class FeatureCamera(Feature):
 
     def states(self) -> Iterable[StatePart]:
         """Yield the pose of the camera."""
-        yield StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore)
+        yield StatePart(name="camera", data=CameraPose | None, to_data=self._to_data, restore=self._restore)
 
     def canvas_ready(self) -> None:
         """Refresh when the camera history changes."""
@@ -223,15 +223,15 @@ class FeatureCamera(Feature):
         frame = None if self.canvas is None else self.canvas.viewport.frame
         return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
 
-    def _to_data(self) -> CameraData:
+    def _to_data(self) -> CameraPose | None:
         """Return the pose of the view; a requested pose that it has not taken yet comes first."""
         wanted = self.session.camera_request.wanted
         if wanted is not None and wanted.pose is not None:
-            return CameraData(wanted.pose)
-        return CameraData(self.canvas.pose) if self._draws else CameraData()
+            return wanted.pose
+        return self.canvas.pose if self._draws else None
 
-    def _restore(self, data: CameraData) -> None:
-        self.session.camera_request.request(None if data.pose is None else Camera.at(data.pose))
+    def _restore(self, pose: CameraPose | None) -> None:
+        self.session.camera_request.request(None if pose is None else Camera.at(pose))
 
     def _ready(self) -> bool:
         return self.canvas is not None

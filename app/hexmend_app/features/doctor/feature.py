@@ -136,9 +136,6 @@ class DoctorPanel(QWidget):
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.text.setMargin(8)
         self.text.setAccessibleName(tr("Findings"))
-        self.text.setTextInteractionFlags(
-            self.text.textInteractionFlags() | Qt.TextInteractionFlag.TextSelectableByMouse
-        )
         fill(QVBoxLayout(self), scrolled(self.text), margins=(0, 0, 0, 0))
         self.show_findings(None)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt, Signal
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Signal
 from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
@@ -63,8 +63,7 @@ class WorstList(QWidget):
         self._stale = False
         self._metric = ComboBox()
         for metric in metrics_offered():
-            self._metric.addItem(tr(metric.title), metric.name)
-            self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
+            self._metric.add(tr(metric.title), described(metric), metric.name)
         set_help(self._metric, tr("Worst by"), tr(_ORDER))
         self._metric.currentIndexChanged.connect(self._begin_again)
         self._metric.currentIndexChanged.connect(self._refresh)

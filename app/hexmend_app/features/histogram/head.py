@@ -59,8 +59,7 @@ class HistogramHead(QWidget):
         self.metric_box.setMaximumWidth(240)
         self.metric_box.addItem("", "")
         for metric in metrics_offered():
-            self.metric_box.addItem(tr(metric.title), metric.name)
-            self.metric_box.setItemData(self.metric_box.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
+            self.metric_box.add(tr(metric.title), described(metric), metric.name)
         self.metric_box.view().setMinimumWidth(220)
         self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
         self.keep = QPushButton(tr("Keep"))

@@ -13,8 +13,7 @@ from PySide6.QtGui import QDropEvent
 from hexmend.errors import FileError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.open.recent_menu import RecentMenu
-from hexmend_app.features.open.welcome import Welcome, card
+from hexmend_app.features.open.welcome import RecentMenu, Welcome, card
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture, RestoreProblem

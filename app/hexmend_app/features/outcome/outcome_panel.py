@@ -56,9 +56,6 @@ class OutcomePanel(QWidget):
         self.text = LinkLabel()
         self.text.setWordWrap(True)
         self.text.setAccessibleName(tr("Run summary"))
-        self.text.setTextInteractionFlags(
-            self.text.textInteractionFlags() | Qt.TextInteractionFlag.TextSelectableByMouse
-        )
         self.text.followed.connect(self.chosen)
         self.text.linkActivated.connect(self._follow)
         self._suggestions = QGridLayout()

@@ -213,9 +213,8 @@ class _RuleBox(FocusedWheel, ComboBox):
         self.setFont(font)
         with QSignalBlocker(self):
             self.clear()
-            for at, (text, help) in enumerate(map(describe_rules, choices)):
-                self.addItem(text)
-                self.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
+            for text, help in map(describe_rules, choices):
+                self.add(text, help)
             self.setCurrentIndex(choices.index(current))
 
 

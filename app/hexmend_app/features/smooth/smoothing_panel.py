@@ -241,12 +241,10 @@ class StageForm(QObject):
         self.method = ComboBox()
         let_shrink(self.method, 14)
         set_help(self.method, tr("Method"), tr("Smoothing method, described below."))
-        for at, method in enumerate(METHODS.values()):
-            self.method.addItem(tr(method.title), method.name)
+        for method in METHODS.values():
             title, help = tr(method.title), tr(method.help)
             about = f"<b>{escape(title)}</b> ({escape(method.name)})<br>{escape(help)}"
-            tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
-            self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
+            self.method.add(title, f"<qt>{about}<br><i>{escape(method.source)}</i></qt>", method.name)
         self.help = note()
         self.parameters, self.stop = ParameterForm(), ParameterForm(declared(StoppingCriteria))
         self.show_setup()

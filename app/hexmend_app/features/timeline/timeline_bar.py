@@ -109,9 +109,8 @@ class TimelineBar(QWidget):
         """List the names and tooltips of runs without sending a signal."""
         with QSignalBlocker(self.runs):
             self.runs.clear()
-            for at, (name, help) in enumerate(names):
-                self.runs.addItem(name)
-                self.runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
+            for name, help in names:
+                self.runs.add(name, help)
         for widget in (self.runs, self.slider):
             widget.setEnabled(bool(names))
         if not names:

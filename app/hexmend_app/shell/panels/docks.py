@@ -11,8 +11,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMainWindow, QTabWidget, QToolBar, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel, PanelPlace
-from hexmend_app.shell.panels.dock import Dock
-from hexmend_app.shell.panels.dock_tabs import set_up_tab_bars
+from hexmend_app.shell.panels.dock import Dock, set_up_tab_bars
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
 

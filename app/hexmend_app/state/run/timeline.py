@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.quality import summarise
@@ -14,13 +12,6 @@ from hexmend_app.state.settings.settings import ITERATIONS_PLAYED
 
 #: Iterations a second at which a run is played.
 SPEED = ITERATIONS_PLAYED.default
-
-
-@dataclass(frozen=True)
-class TimelineData:
-    """Data of the timeline in a session file: the selected run."""
-
-    record: int | None
 
 
 class Timeline(QObject):
@@ -159,16 +150,16 @@ class Timeline(QObject):
         self.extended.emit()
         self.go(record, record.newest if record.result is None else record.result)
 
-    def to_data(self) -> TimelineData:
-        """Return the data for a session file."""
+    def to_data(self) -> int | None:
+        """Return the number of the selected run for a session file."""
         records = self.history.records
-        return TimelineData(records.index(self.record) if self.record in records else None)
+        return records.index(self.record) if self.record in records else None
 
-    def restore(self, data: TimelineData) -> None:
-        """Restore the selected run of a session file; the history is restored first."""
+    def restore(self, run: int | None) -> None:
+        """Select the run with a number, of a session file; the history is restored first."""
         self.update_runs()
-        if data.record is not None:
-            self.record = self.history.records[data.record]
+        if run is not None:
+            self.record = self.history.records[run]
             self.extended.emit()
 
     def delete(self, record: RunRecord) -> None:

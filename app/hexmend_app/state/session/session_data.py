@@ -25,7 +25,6 @@ from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData
-from hexmend_app.state.run.timeline import TimelineData
 from hexmend_app.state.view.side_views import SideViewsData
 from hexmend_app.state.view.view_model import ViewData
 
@@ -39,7 +38,7 @@ class SessionData:
 
     document: DocumentData
     history: HistoryData
-    timeline: TimelineData
+    timeline: int | None  # number of the selected run
     view: ViewData
     selection: SelectionData
     snapshots: tuple[Snapshot, ...]
@@ -64,8 +63,8 @@ class SessionData:
         for number, count in ((self.breakpoints.hex, hexes), (self.breakpoints.node, nodes)):
             if not 0 <= (number or 0) < count:
                 raise ValueError(f"a breakpoint is at hex or node {number}, of which there are {count}")
-        if not 0 <= (self.timeline.record or 0) < max(len(self.history.records), self.timeline.record is None):
-            raise ValueError(f"there is no run {self.timeline.record}")
+        if not 0 <= (self.timeline or 0) < max(len(self.history.records), self.timeline is None):
+            raise ValueError(f"there is no run {self.timeline}")
 
     def states(self) -> Iterator[State]:
         """Yield every complete state of the mesh: the shown state first, then the states of changes and comparisons."""

@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.picture import Camera
-from hexmend_app.picture.camera_pose import CameraPose
-
-
-@dataclass(frozen=True)
-class CameraData:
-    """Data of the camera in a session file: its pose, if there is a view."""
-
-    pose: CameraPose | None = None
 
 
 class CameraRequest(QObject):

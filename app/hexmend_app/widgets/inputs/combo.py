@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPaintEvent, QPalette
 from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePainter
@@ -14,6 +16,11 @@ _LIST_MARGIN = 8
 
 class ComboBox(QComboBox):
     """Combo box whose text is elided if the box is too narrow; Qt would clip it. The list is as wide as its texts."""
+
+    def add(self, text: str, help: str, data: Any = None) -> None:
+        """Add an entry with its tooltip and its data."""
+        self.addItem(text, data)
+        self.setItemData(self.count() - 1, help, Qt.ItemDataRole.ToolTipRole)
 
     def showPopup(self) -> None:
         """Open the list, as wide as its texts."""

@@ -14,9 +14,8 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.codec.conversion import ConfigTable, parse_value
 from hexmend_app.codec.option import Option, options_of
-from hexmend_app.codec.value_text import parse_value
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Text
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm

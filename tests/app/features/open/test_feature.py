@@ -15,8 +15,7 @@ from hexmend import METHODS, Mesh, Stage, StoppingCriteria, gallery, io
 from hexmend.cli.main import main
 from hexmend.gallery import make
 from hexmend.io.storage.file_progress import FileAction, file_operation, report
-from hexmend_app.features.open.recent_menu import RecentMenu
-from hexmend_app.features.open.welcome import card
+from hexmend_app.features.open.welcome import RecentMenu, card
 from hexmend_app.picture import Cut, PicturePanel, Scene, WipeLayout, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.resources import demo_mesh

@@ -7,7 +7,7 @@ from PySide6.QtGui import QGuiApplication, QTextDocument
 from PySide6.QtWidgets import QLabel
 
 from hexmend import Summary, summarise
-from hexmend_app.features.quality.quality_bar import FIGURES, ROWS, QualityBar, sense
+from hexmend_app.features.quality.feature import FIGURES, ROWS, QualityBar, sense
 from hexmend_app.theme.palette import BETTER, WORSE
 from hexmend_app.widgets.wording import figure
 from tests.app.driving import heard_from, run_to_end
