@@ -12,20 +12,20 @@ from hexmend_app.theme.style import note
 
 
 class Swatch(QWidget):
-    """Small filled rectangle."""
+    """Small filled rectangle, pale inside its border in the style of the plots, or with a rim of another colour."""
 
-    def __init__(self, colour: Role | str, parent: QWidget | None = None):
-        super().__init__(parent)
-        self._colour = colour
-        self.setFixedSize(QSize(12, 10))
+    def __init__(self, colour: Role | str, width: int = 12, height: int = 10, rim: Role | None = None):
+        super().__init__()
+        self._colour, self._rim = colour, rim
+        self.setFixedSize(QSize(width, height))
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Fill the rectangle in the style of the plots: pale inside, full colour at the border."""
-        painter = QPainter(self)
-        painter.setPen(QColor(str(self._colour)))
-        pale = QColor(str(self._colour))
-        pale.setAlpha(90)
-        painter.setBrush(pale)
+        """Fill the rectangle."""
+        painter, inside = QPainter(self), QColor(str(self._colour))
+        painter.setPen(QColor(str(self._rim or self._colour)))
+        if self._rim is None:
+            inside.setAlpha(90)
+        painter.setBrush(inside)
         painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
 
 

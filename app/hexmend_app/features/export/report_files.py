@@ -122,8 +122,8 @@ def _row(record: RunRecord, number: int, version: Version) -> Row:
     """Return an iteration of a run as a row of a comparison."""
     seconds = float(record.rows[number]["seconds"])
     outcome = "" if number == record.result else "stopped"
-    work = record.work
-    parameters = {} if work is None or isinstance(work, Recipe) else work.values()
+    stages = () if record.recipe is None else record.recipe.stages
+    parameters = stages[0].smoother.values() if len(stages) == 1 else {}
     return Row(record.title, parameters, outcome, record.message, version.mesh, version.summary, number, seconds)
 
 

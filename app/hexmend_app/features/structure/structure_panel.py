@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
 from hexmend.boundary import NodeClass
@@ -28,6 +27,7 @@ from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import set_help, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import counted
 
 #: Texts of the classes of boundary nodes.
@@ -217,27 +217,11 @@ class LayerRow:
         set_help(self.box, self._name, self._help if offered else reason)
 
 
-class _Mark(QWidget):
-    """Mark of a line or point: a coloured rectangle with a rim, as in the view."""
-
-    def __init__(self, colour: str | Role, line: bool, parent: QWidget | None = None):
-        super().__init__(parent)
-        self._colour = colour
-        self.setFixedSize(QSize(11, 7) if line else QSize(9, 9))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the rectangle and its rim."""
-        painter = QPainter(self)
-        painter.setPen(QColor(str(RIM)))
-        painter.setBrush(QColor(str(self._colour)))
-        painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
-
-
 def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
     entry, label = QWidget(), ElidingLabel(text)
     label.setFont(tabular(smaller(label.font())))
     label.setToolTip(text)
     tint(label, MUTED)
-    marks = [] if colour is None else [_Mark(colour, line)]
+    marks = [] if colour is None else [Swatch(colour, *((11, 7) if line else (9, 9)), rim=RIM)]
     fill(QHBoxLayout(entry), *marks, (label, 1), margins=(0, 0, 0, 0), spacing=4)
     return entry

@@ -13,10 +13,7 @@ import numpy as np
 
 from hexmend.advice import Advice
 from hexmend.iteration import Outcome
-from hexmend.mesh.rules import MotionRules
-from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
-from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.translation import tr
 
@@ -75,12 +72,6 @@ class RunRecord:
         Descriptions of the breakpoints reached, by iteration.
     advice : Advice or None
         Why the run ended and what to do; None until it has ended.
-    work : Smoother, Recipe or None
-        The method or recipe; None for a run from a session file.
-    stop : StoppingCriteria or None
-        None for a recipe, whose stages have their own.
-    rules : MotionRules
-        Rules of motion of the run.
     recipe : Recipe or None
         What repeats the run, as far as it got; None if it failed, or its method has changed and it has not ended.
     settings : str
@@ -102,9 +93,6 @@ class RunRecord:
         self.message = ""
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None
-        self.work: Smoother | Recipe | None = None
-        self.stop: StoppingCriteria | None = None
-        self.rules = MotionRules()
         self.settings = ""
         self.recipe: Recipe | None = None
         self._moved = start.mesh.free  # grows if boundary nodes slide

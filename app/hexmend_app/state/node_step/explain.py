@@ -4,16 +4,26 @@ from __future__ import annotations
 
 from functools import singledispatch
 
+import numpy as np
+
 from hexmend.errors import MeshError
+from hexmend.kernels import laplacian as kernels
+from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
+from hexmend.quality import measure
 from hexmend.smoothers import Smoother
+from hexmend.smoothers.general import General
+from hexmend.smoothers.getme.sequential import SequentialGETMe
+from hexmend.smoothers.getme.simultaneous import GETMe
 from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.node_step.global_step import global_step
 from hexmend_app.state.node_step.local import local_step
 from hexmend_app.state.node_step.mean_step import next_step, step_to_target
-from hexmend_app.state.node_step.record import NodeStep, StepStatus
+from hexmend_app.state.node_step.record import NodeStep, Pull, StepStatus
 
 
 def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:
@@ -77,3 +87,60 @@ def _(smoother: LocalDescent, mesh: Mesh, node: int) -> NodeStep:
 @explain_free_node.register
 def _(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     return global_step(smoother, mesh, node)
+
+
+@explain_free_node.register
+def _(smoother: Laplacian, mesh: Mesh, node: int) -> NodeStep:
+    target, pulls = _mean(mesh, node)
+    return step_to_target(smoother, mesh, node, target, target, pulls)
+
+
+@explain_free_node.register
+def _(smoother: SmartLaplacian, mesh: Mesh, node: int) -> NodeStep:
+    target, pulls = _mean(mesh, node)
+    ring, points, alone = mesh.topology.rings, mesh.points.copy(), np.array([node], np.int32)
+    keep = smoother.guard == "quality"
+    kernels.smart_sweep(points, mesh.topology.hex_mesh, ring.start, ring.items, alone, keep)
+    return step_to_target(smoother, mesh, node, points[node], target, pulls)
+
+
+def _mean(mesh: Mesh, node: int) -> tuple[np.ndarray, tuple[Pull, ...]]:
+    """Return the mean of the edge neighbours, (3,), and the neighbours with their weights."""
+    ring, points = mesh.topology.rings, mesh.points.copy()
+    kernels.in_place(points, ring.start, ring.items, np.array([node], np.int32))
+    neighbours = ring[node].tolist()
+    return points[node], tuple(Pull("node", i, mesh.points[i], 1 / len(neighbours)) for i in neighbours)
+
+
+@explain_free_node.register
+def _(smoother: GETMe, mesh: Mesh, node: int) -> NodeStep:
+    hexes, targets, q = _targets(smoother, mesh, node)
+    weights = smoother.hex_weights(q)
+    weights = weights / weights.sum()
+    pulls = tuple(Pull("hex", *row) for row in zip(hexes.tolist(), targets, weights.tolist(), strict=True))
+    step = next_step(smoother, mesh)
+    after = step.points[node].copy()
+    return step_to_target(smoother, mesh, node, after, weights @ targets, pulls, notes=step.diagnostics)
+
+
+@explain_free_node.register
+def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
+    hexes, targets, _ = _targets(smoother, mesh, node)
+    pulls = tuple(Pull("hex", h, target, None) for h, target in zip(hexes.tolist(), targets, strict=True))
+    step = next_step(smoother, mesh)
+    after = step.points[node].copy()
+    return step_to_target(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.UNCHANGED, notes=step.diagnostics)
+
+
+@explain_free_node.register
+def _(smoother: General, mesh: Mesh, node: int) -> NodeStep:
+    return explain_free_node(GETMe(), mesh, node)
+
+
+def _targets(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the hexes of a node, (k,), its target position in each, (k, 3), and their q(H), (k,)."""
+    corners = mesh.topology.node_corners[node]
+    hexes = np.ascontiguousarray(mesh.hexes[corners // 8])
+    targets = np.empty((len(hexes), 8, 3))
+    element_steps(mesh.points, hexes, smoother.scaling, smoother.relaxation, targets)
+    return corners // 8, targets[np.arange(len(hexes)), corners % 8], measure(mesh.points, hexes).q

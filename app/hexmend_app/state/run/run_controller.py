@@ -146,12 +146,10 @@ class RunController(QObject):
         rules = smoother.rules if isinstance(smoother, Recipe) else rules or MotionRules()
         record = partial(self.history.add, self.record)
         self._worker = Worker(before.mesh, smoother, stop, record, rules)
-        self.record.work, self.record.stop = smoother, stop
         if isinstance(smoother, Recipe):
             self.record.recipe = smoother
         else:
             self.record.recipe = Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
-        self.record.rules = rules
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.shows_every = self.shows_every

@@ -340,7 +340,7 @@ def test_a_run_has_the_rules_and_its_result_has_none(host, mesh, qtbot):
     free = smoothed(mesh, METHODS["local-sd"](boundary="slide"), SHORT).mesh
     assert (after.points != free.points).any()
     assert not after.node_rules.rules
-    assert host.session.run.record.rules == SLIDING
+    assert host.session.run.record.recipe.rules == SLIDING
 
 
 def test_recipes_have_the_rules_in_files(host, tmp_path):
