@@ -189,9 +189,6 @@ class Feature(QObject):
         """Return the parts of the state of this feature that session files store."""
         return ()
 
-    def actions_ready(self) -> None:
-        """Connect buttons to actions; called once when all actions exist, see `Host.action`."""
-
     def canvas_ready(self) -> None:
         """Connect to the 3D view; called once when `canvas` exists."""
 

@@ -102,6 +102,7 @@ class Window(QMainWindow):
         """Build the other features step by step; in the last step, add all panels and menus."""
         from hexmend_app.shell.menus import Menus
         from hexmend_app.shell.window_actions import declare_actions
+        from hexmend_app.widgets.action_button import ActionButton
 
         first = self.features
         self.features = yield from build_remaining(self, first)
@@ -113,7 +114,8 @@ class Window(QMainWindow):
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
         for action in self._menus.actions.values():
             action.triggered.connect(self.messages.leave_card)
-        call_each(self.features.values(), lambda feature: feature.actions_ready())
+        for button in self.findChildren(ActionButton):
+            button.show_action(self._menus.actions[button.action_id])
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready()

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QToolButton, QWidget
+from PySide6.QtWidgets import QToolButton
 
 from hexmend_app.theme.palette import TEXT, Role
 from hexmend_app.theme.style import icon
@@ -15,8 +15,11 @@ from hexmend_app.theme.style import icon
 class ActionButton(QToolButton):
     """Tool button that shows and triggers an action of the window.
 
+    The window shows the action on its buttons once all actions exist.
+
     Parameters
     ----------
+    action_id : str
     icon_name : str
         Name of the icon; "" for that of the action.
     role : Role
@@ -25,9 +28,9 @@ class ActionButton(QToolButton):
         Show the text next to the icon.
     """
 
-    def __init__(self, icon_name: str = "", role: Role = TEXT, with_text: bool = False, parent: QWidget | None = None):
-        super().__init__(parent)
-        self._icon_name, self._role = icon_name, role
+    def __init__(self, action_id: str, icon_name: str = "", role: Role = TEXT, with_text: bool = False):
+        super().__init__()
+        self.action_id, self._icon_name, self._role = action_id, icon_name, role
         style = Qt.ToolButtonStyle
         self.setToolButtonStyle(style.ToolButtonTextBesideIcon if with_text else style.ToolButtonIconOnly)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -4,8 +4,8 @@ import numpy as np
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QIcon, QImage
 
-from hexmend_app.theme.icons import icon
 from hexmend_app.theme.palette import FAINT, TEXT
+from hexmend_app.theme.style import icon
 from tests.app.theme.contrasts import contrast
 
 

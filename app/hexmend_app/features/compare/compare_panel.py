@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
@@ -21,9 +20,6 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.row_model import shape_table
 
 _HINT = "Select methods and press Compare methods. Each starts from the current mesh."
-
-#: Actions on buttons.
-ACTIONS = ("compare", "cancel_comparison", "wipe")
 
 
 @dataclass(frozen=True)
@@ -65,7 +61,6 @@ class ComparePanel(QWidget):
         super().__init__(parent)
         self._editable = False
         self.model = ComparisonModel(ticks, self)
-        self._actions = {id: ActionButton(with_text=True) for id in ACTIONS}
         self._use = QPushButton(tr("Use result"))
         set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self.save_button = QPushButton(icon("content-save-outline"), "")
@@ -93,7 +88,7 @@ class ComparePanel(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        run, cancel, wipe = self._actions.values()
+        run, cancel, wipe = (ActionButton(id, with_text=True) for id in ("compare", "cancel_comparison", "wipe"))
         head = fill(QHBoxLayout(), run, cancel, None, wipe, self._use, self.save_button, spacing=4)
         fill(QVBoxLayout(self), head, (self._table, 1), self._status, margins=(8, 4, 8, 4), spacing=4)
 
@@ -112,11 +107,6 @@ class ComparePanel(QWidget):
         self._table.resizeColumnsToContents()
         self._table.setColumnWidth(METHOD, self._table.columnWidth(METHOD) + 8)  # Qt leaves too little for the boxes
         self._enable()
-
-    def show_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Show the actions of `ACTIONS` on buttons."""
-        for id, button in self._actions.items():
-            button.show_action(actions[id])
 
     def settings(self) -> ComparisonSettings:
         """Return the panel's settings."""

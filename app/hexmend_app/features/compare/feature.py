@@ -14,7 +14,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.compare.compare_panel import ACTIONS, ComparePanel, ComparisonSettings
+from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
@@ -68,10 +68,6 @@ class FeatureCompare(Feature):
         yield StatePart(
             name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore
         )
-
-    def actions_ready(self) -> None:
-        """Show actions on the buttons of the panel."""
-        self.panel.show_actions({id: self.host.action(id) for id in ACTIONS})
 
     def panels(self) -> Iterable[Panel]:
         """Yield the panel of methods."""

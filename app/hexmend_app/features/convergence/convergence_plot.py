@@ -13,8 +13,7 @@ from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.charts import Chart
-from hexmend_app.features.convergence.curves import Curve, described
+from hexmend_app.features.convergence.curves import Chart, Curve, described
 from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
 from hexmend_app.state.mesh.run_record import balances

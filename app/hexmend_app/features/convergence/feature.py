@@ -10,8 +10,15 @@ from superqt.utils import QSignalThrottler
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
 from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.convergence.charts import CHARTS, ChartSettings
-from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
+from hexmend_app.features.convergence.curves import (
+    CHARTS,
+    ChartSettings,
+    Curve,
+    axis_title,
+    described,
+    run_start,
+    table_rows,
+)
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence

@@ -8,9 +8,8 @@ from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QListWidget, QListWidgetItem, QSizePolicy, QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
-from hexmend_app.features.convergence.curves import Curve, axis_title, colour_of
+from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, ChartSettings, Curve, axis_title, colour_of
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, note, on_theme_change, set_help, smaller

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QTimer
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.export.export_settings import ExportSettings, ReportSettings
-from hexmend_app.features.export.film_settings import FilmOptions, FilmSettings
+from hexmend_app.features.export.export_settings import ExportSettings, FilmOptions, FilmSettings, ReportSettings
 from hexmend_app.features.export.page_dialog import PageDialog
 from hexmend_app.features.export.picture_settings import PictureSettings
 from hexmend_app.picture import Page, Scene

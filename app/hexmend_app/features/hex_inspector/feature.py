@@ -135,10 +135,6 @@ class FeatureHexInspector(Feature):
             restore=self.panel.corners_box.setChecked,
         )
 
-    def actions_ready(self) -> None:
-        """Show actions on the buttons of the panel."""
-        self.worst_list.show_actions(self.host.action("previous_worst"), self.host.action("next_worst"))
-
     def panels(self) -> Iterable[Panel]:
         """Yield the list of the worst hexes and the panel of the selected hex."""
         yield Panel(

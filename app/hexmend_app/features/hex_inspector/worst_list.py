@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Signal
-from PySide6.QtGui import QAction, QShowEvent
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
@@ -70,7 +70,6 @@ class WorstList(QWidget):
         self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
         help = tr("Show only the selected hex and its neighbours; Esc shows all hexes again.")
         self._isolate = check_box(tr("Isolate"), help, on=True)
-        self._previous, self._next = ActionButton("chevron-up"), ActionButton("chevron-down")
         help = tr("Save the list as CSV, one line per hex.")
         self.save_button = icon_button("content-save-outline", tr("Save list"), help)
         self._model = WorstModel(self)
@@ -78,11 +77,6 @@ class WorstList(QWidget):
         self._text = note()
         self._lay_out()
         self._refresh()
-
-    def show_actions(self, previous: QAction, next: QAction) -> None:
-        """Show the actions that go through the list."""
-        self._previous.show_action(previous)
-        self._next.show_action(next)
 
     def _make_table(self) -> QTableView:
         table = QTableView()
@@ -97,7 +91,8 @@ class WorstList(QWidget):
         return table
 
     def _lay_out(self) -> None:
-        buttons = (self._isolate, self._previous, self._next, self.save_button)
+        previous, following = ActionButton("previous_worst", "chevron-up"), ActionButton("next_worst", "chevron-down")
+        buttons = (self._isolate, previous, following, self.save_button)
         label = labelled(tr("Worst by"), self._metric)
         head = fill(QHBoxLayout(), label, self._metric, None, *buttons, spacing=4)
         fill(QVBoxLayout(self), head, (self._table, 1), self._text, margins=(8, 4, 8, 4), spacing=4)

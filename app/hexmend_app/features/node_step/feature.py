@@ -12,7 +12,7 @@ from PySide6.QtCore import QTimer
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.node_step.panel import SWEEP, NodePanel
+from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.picture.visibility import Isolate
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.node_step import NodeStep
@@ -90,10 +90,6 @@ class FeatureNodeStep(Feature):
                     tr(label), "", self._reason_for_no_sweep() or tr(help)
                 ),
             )
-
-    def actions_ready(self) -> None:
-        """Show actions on the buttons of the panel."""
-        self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
 
     def panels(self) -> Iterable[Panel]:
         """Yield the panel of the node's step."""

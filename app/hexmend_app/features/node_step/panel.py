@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from html import escape
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -92,7 +91,7 @@ class NodePanel(QWidget):
         set_help(
             self.isolate_button, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again.")
         )
-        self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
+        self._buttons = [ActionButton(id, with_text=True) for id in SWEEP]
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName(tr("Progress of the sweep"))
@@ -118,7 +117,7 @@ class NodePanel(QWidget):
         page = QWidget()
         fill(QHBoxLayout(page), (self.plot, 1), (self._no_plot, 1), (self.figures, 1), margins=(0, 0, 0, 0))
         self._stack.addWidget(page)
-        foot = fill(QHBoxLayout(), self.isolate_button, None, *self._buttons.values())
+        foot = fill(QHBoxLayout(), self.isolate_button, None, *self._buttons)
         fill(QVBoxLayout(self), head, (self._stack, 1), self._legend, self.nodes, foot, margins=(8, 4, 8, 4), spacing=4)
 
     def show_message(self, message: str, title: str = "") -> None:
@@ -165,11 +164,6 @@ class NodePanel(QWidget):
             return
         links = (f"<b>{i}</b>" if i == selected else f'<a href="{i}">{i}</a>' for i in nodes)
         self.nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
-
-    def show_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Show the actions of `SWEEP` on the buttons."""
-        for name, button in self._buttons.items():
-            button.show_action(actions[name])
 
     def set_sweep(self, done: int = 0, total: int = 0) -> None:
         """Show the progress of the sweep."""

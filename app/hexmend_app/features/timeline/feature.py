@@ -60,11 +60,6 @@ class FeatureTimeline(Feature):
                 appearance=self._play_appearance if name == "play" else None,
             )
 
-    def actions_ready(self) -> None:
-        """Show actions on the buttons of the panel."""
-        self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
-        self.panel.run_bar.show_actions({name: self.host.action(name) for name in ("run", "step", "stop", "reset")})
-
     def panels(self) -> Iterable[Panel]:
         """Yield the bar below the view."""
         yield Panel(

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QSlider, QStyle, QStyl
 from hexmend.iteration import Outcome
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import AMBER, BETTER, BLUE, MUTED, ON_ACCENT, WORSE
-from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.spacing import Part, fill
 from hexmend_app.theme.style import bold, set_help, set_variant, tabular, tint, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
@@ -79,9 +79,8 @@ class TimelineBar(QWidget):
         self.runs = ComboBox()
         let_shrink(self.runs, 5)
         set_help(self.runs, tr("Run"), tr("Run shown in the timeline."))
-        self._buttons = {name: ActionButton() for name in _STEPS}
-        self._branch = ActionButton()
-        for button in (*self._buttons.values(), self._branch):
+        self._buttons = {name: ActionButton(f"iteration_{name}") for name in (*_STEPS, "branch")}
+        for button in self._buttons.values():
             button.setAutoRaise(True)
         self.slider = TrackSlider(Qt.Orientation.Horizontal)
         self.slider.setMinimumWidth(_LEAST_TRACK)
@@ -93,10 +92,9 @@ class TimelineBar(QWidget):
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
-        row = fill(QHBoxLayout(self), self.run_bar, 8, self.runs, 4, margins=(8, 0, 8, 0), spacing=4)
-        for button in self._buttons.values():
-            row.addWidget(button)
-        fill(row, 4, (self.slider, 1), 4, self._at, self._branch, self._more, margins=(8, 0, 8, 0), spacing=4)
+        steps, branch = [self._buttons[name] for name in _STEPS], self._buttons["branch"]
+        ends: tuple[Part, ...] = (4, (self.slider, 1), 4, self._at, branch, self._more)
+        fill(QHBoxLayout(self), self.run_bar, 8, self.runs, 4, *steps, *ends, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -168,14 +166,9 @@ class TimelineBar(QWidget):
             for action in group.actions():
                 action.setChecked(action.data() == value)
 
-    def show_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Show the actions "first", "back", "play", "on", "newest" and "branch"."""
-        for name, action in actions.items():
-            self.button(name).show_action(action)
-
     def button(self, name: str) -> ActionButton:
-        """Return the button of an action."""
-        return self._branch if name == "branch" else self._buttons[name]
+        """Return the button "first", "back", "play", "on", "newest" or "branch"."""
+        return self._buttons[name]
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
@@ -231,9 +224,9 @@ class RunBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        run = ActionButton(role=ON_ACCENT, with_text=True)
+        run = ActionButton("run", role=ON_ACCENT, with_text=True)
         set_variant(run, "main")
-        self._buttons = {"run": run} | {name: ActionButton() for name in _BUTTONS}
+        self._buttons = {"run": run} | {name: ActionButton(name) for name in _BUTTONS}
         self._state = _State()
         self._state.setAccessibleName(tr("State of the run"))
         self._state.setFont(bold(self._state.font()))
@@ -241,11 +234,6 @@ class RunBar(QWidget):
             self._buttons[name].setAutoRaise(True)
         fill(QHBoxLayout(self), *self._buttons.values(), self._state, margins=(0, 0, 0, 0), spacing=4)
         run.reserve_width(map(tr, _FACES), around=20)
-
-    def show_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Show the actions "run", "step", "stop" and "reset"."""
-        for name, button in self._buttons.items():
-            button.show_action(actions[name])
 
     def set_state(
         self, phase: Phase, outcome: Outcome | None, failed: bool = False, undone: bool = False, inverted: int = 0
@@ -273,5 +261,5 @@ class RunBar(QWidget):
         return self._state.text()
 
     def button(self, name: str) -> ActionButton:
-        """Return the button of an action."""
+        """Return the button "run", "step", "stop" or "reset"."""
         return self._buttons[name]

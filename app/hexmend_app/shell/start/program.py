@@ -17,7 +17,6 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend.cli.process.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
-from hexmend_app.shell.window import Window
 from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import Task, running
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
@@ -59,7 +58,6 @@ def open_window(mesh: str | None = None) -> int:
     translator = QTranslator(app)
     if translator.load(QLocale.system(), "hexmend", "_", str(resource("icon.svg").parent / "translations")):
         app.installTranslator(translator)
-    from hexmend_app.shell.start.program import WindowStart
     from hexmend_app.shell.window import Window
 
     window = Window()

@@ -196,25 +196,15 @@ class Commands(QObject):
             command = Command(change.__name__, (now,), values)
             self.document.commit(title, State(mesh, now.figures, summary), command=command)
 
-    def repair(self, kinds: Sequence[str] = ()) -> bool:
-        """Start repairing some kinds of problem, or all; return False if the mesh is not editable.
+    def repair(self, kinds: Sequence[str] = ()) -> None:
+        """Start repairing some kinds of problem, or all, if the mesh is editable; see `Session.repairer`."""
+        if self._begin_edit():
+            self._repairer.start("repairing", lambda before, _: repair_mesh(before, kinds))
 
-        `Session.repairer` reports the outcome.
-        """
-        if not self._begin_edit():
-            return False
-        self._repairer.start("repairing", lambda before, _: repair_mesh(before, kinds))
-        return True
-
-    def pad(self, choice: PaddingChoice) -> bool:
-        """Start laying a layer of hexes under the boundary; return False if the mesh is not editable.
-
-        `Session.padder` reports the outcome.
-        """
-        if not self._begin_edit():
-            return False
-        self._padder.start("padding", lambda before, task: pad_mesh(before, choice, task))
-        return True
+    def pad(self, choice: PaddingChoice) -> None:
+        """Start laying a layer of hexes under the boundary, if the mesh is editable; see `Session.padder`."""
+        if self._begin_edit():
+            self._padder.start("padding", lambda before, task: pad_mesh(before, choice, task))
 
     def undo(self) -> None:
         """Undo the last change, if the mesh is editable."""

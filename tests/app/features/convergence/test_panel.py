@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QLabel
 
 from benchmarks.window.windows import end_run
 from hexmend import METHODS, StoppingCriteria, iterate
-from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot, describe, reason_if_blank
-from hexmend_app.features.convergence.curves import Curve, run_start
+from hexmend_app.features.convergence.curves import CHARTS, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord

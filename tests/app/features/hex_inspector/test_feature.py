@@ -13,6 +13,7 @@ from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.hex_inspector.worst_model import ID, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
+from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import figure
 from tests.app.driving import LEFT, drag, heard_from, key, named, open_mesh, smooth, texts
@@ -146,7 +147,8 @@ def worst_list(shown):
     actions = QAction("Previous", widget), QAction("Next", widget)
     for action, handle in zip(actions, (widget.previous, widget.next), strict=True):
         action.triggered.connect(handle)
-    widget.show_actions(*actions)
+    for shown_on, action in zip(widget.findChildren(ActionButton), actions, strict=True):
+        shown_on.show_action(action)
     return widget
 
 
