@@ -20,7 +20,7 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.picture import Cut, CutStyle
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.shell.window import Window
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 
 _FRAMES = 40
 _SECONDS = 6.0
@@ -51,7 +51,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     window.session.view.set_cut(Cut() if cut == "whole" else Cut.at((1, 0, 0), middle, CutStyle(cut)))
     shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
     shift *= start.mesh.free[:, None]
-    states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
+    states = [MeasuredMesh.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
     canvas = window.canvas
     draw(window)
     times, starts, vtk = [], [], []

@@ -13,7 +13,7 @@ from benchmarks.section import BenchSection
 from benchmarks.window.windows import draw, measure_meshes, report, rotation_frame_ms, run_event_loop
 from hexmend.gallery import make
 from hexmend_app.shell.window import Window
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 
 _SIZES: Any = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
 
@@ -47,10 +47,10 @@ def _row(window: Window) -> dict[str, Any]:
     return {"view": view, "turning_ms": rotation, "opening_ms": opening, "wiping_ms": float(np.median(wiping))}
 
 
-def _other_states(window: Window) -> list[State]:
+def _other_states(window: Window) -> list[MeasuredMesh]:
     mesh = window.session.document.now.mesh
     shifts = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
-    return [State.of(mesh.with_points(mesh.points + shift * mesh.free[:, None])) for shift in shifts]
+    return [MeasuredMesh.of(mesh.with_points(mesh.points + shift * mesh.free[:, None])) for shift in shifts]
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:

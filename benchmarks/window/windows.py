@@ -18,7 +18,7 @@ from hexmend.errors import HexmendError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.settings.settings import store_in
 
@@ -38,7 +38,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
         window.show()
         window.build_features()
         window.build_canvas()
-        window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
+        window.session.document.replace(MeasuredMesh.of(mesh), Path(f"{mesh.name}.vtu"))
         run_event_loop(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
         document = window.session.document

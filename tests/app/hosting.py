@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session.session import Session
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.dialogs.waiting import wait_until
@@ -21,7 +21,7 @@ class PlainHost:
         self.messages, self.busy = MessageBar(self.dialog_parent), Busy(self.dialog_parent)
         self.default_file_stem = "mesh"
         self.fronted: list[str] = []
-        self.session.document.replace(State.of(mesh), path)
+        self.session.document.replace(MeasuredMesh.of(mesh), path)
 
     def show_panel(self, id):
         self.fronted.append(id)

@@ -18,7 +18,7 @@ from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.command_palette import command_entries, name_of
 from hexmend_app.shell.window import Window
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from scripts.write_keys import as_markdown
 from tests.app.driving import named, open_and_wait
 from tests.app.features.structure.layers import count
@@ -63,7 +63,7 @@ def test_a_feature_is_found_by_its_folder(with_folder, cube):
     assert window.action("volume").text() == "&Volume of the mesh"
     assert not window.action("volume").isEnabled()
     assert "| Volume of the mesh | `Ctrl+Shift+V` |" in as_markdown(window.menus.declared())
-    window.session.document.replace(State.of(cube), None)
+    window.session.document.replace(MeasuredMesh.of(cube), None)
     window.refresh()
     window.action("volume").trigger()
     assert window.is_visible("volume")

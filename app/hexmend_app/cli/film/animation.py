@@ -15,7 +15,7 @@ from hexmend_app.cli.numbers import page_size, parse_integer
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.film.film_files import format_of, write_film
 from hexmend_app.scene.film.film_frames import chosen_iterations, pictures
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import RecordedIteration
 
@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> int:
     mesh = with_surface(args, read(args.mesh), method)
     check_memory(args, [method], mesh)
     run, history = iterate(mesh, method, stop), History()
-    record = history.begin(method.title, State.of(mesh))
+    record = history.begin(method.title, MeasuredMesh.of(mesh))
     history.add(record, run.start)
     follow(run, lambda iteration: history.add(record, iteration))
     numbers = chosen_iterations(history, record, max_frames)

@@ -16,7 +16,7 @@ from hexmend.study.table_row import common_norm
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.translation import tr
@@ -104,7 +104,7 @@ class FeatureCompare(Feature):
     # The table
 
     @property
-    def _initial_state(self) -> State | None:
+    def _initial_state(self) -> MeasuredMesh | None:
         """Mesh from which the compared methods started, else that at the start; None without a mesh."""
         document = self.session.document
         return self._comparison.initial or (document.start if document.is_open else None)
@@ -188,7 +188,7 @@ class FeatureCompare(Feature):
         self._comparison.start(smoothers, stage.stop, self.session.run_setup.rules)
         self.host.show_panel("compare")  # its key starts it from anywhere
 
-    def _state_of(self, name: str) -> State:
+    def _state_of(self, name: str) -> MeasuredMesh:
         if name == INITIAL:
             return self._initial_state
         record = self._run_of(name)
@@ -237,7 +237,7 @@ def _key(record: RunRecord) -> str:
     return tr("Run: {name}", name=record.name)
 
 
-def _mesh_values(state: State, norm: ObjectiveNorm) -> dict[str, Any]:
+def _mesh_values(state: MeasuredMesh, norm: ObjectiveNorm) -> dict[str, Any]:
     """Return the values of a mesh, with the objective in the norm of the table."""
     norm_values = {"objective": objective(state.figures, *norm), "objective_formula": norm.formula}
     return state.summary.to_dict() | norm_values

@@ -18,7 +18,7 @@ from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.report.histogram import Histogram
 from hexmend_app.scene.colour.colouring import Colouring
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.mesh.snapshots import Snapshot
@@ -112,7 +112,7 @@ class FeatureHistogram(Feature):
             return None
         return colouring
 
-    def _distribution(self, state: State) -> Distribution:
+    def _distribution(self, state: MeasuredMesh) -> Distribution:
         return Distribution.of(metric_values(self.metric, state.mesh, state.figures), state.figures.inverted)
 
     def _on_metric(self, name: str) -> None:

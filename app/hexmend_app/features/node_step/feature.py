@@ -14,7 +14,7 @@ from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.picture.visibility import Isolate
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.node_step import NodeStep
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
@@ -268,12 +268,12 @@ def reason_for_no_sweep(session: Session, smoother: Smoother | None) -> str:
     return "" if session.document.now.mesh.free.any() else tr("All nodes of the mesh are fixed.")
 
 
-def worst_free_node(state: State, hexes: np.ndarray) -> tuple[int, int] | None:
+def worst_free_node(state: MeasuredMesh, hexes: np.ndarray) -> tuple[int, int] | None:
     """Find the free node to explain by default.
 
     Parameters
     ----------
-    state : State
+    state : MeasuredMesh
     hexes : (k,) int
         Hexes to search, in this order.
 

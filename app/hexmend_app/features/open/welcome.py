@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QVBoxLayout, QWidget
 
 from hexmend.doctor import Finding
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import clear, fill
@@ -122,14 +122,14 @@ class Welcome(QWidget):
                 self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)
 
 
-def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str]:
+def card(name: str, state: MeasuredMesh, findings: Sequence[Finding]) -> tuple[str, str]:
     """Return title and text of the card.
 
     Parameters
     ----------
     name : str
         Name of the file.
-    state : State
+    state : MeasuredMesh
         The mesh as opened.
     findings : sequence of Finding
         Of the doctor, as far as they are known.
@@ -150,7 +150,7 @@ def card(name: str, state: State, findings: Sequence[Finding]) -> tuple[str, str
     return title, " ".join(sentences)
 
 
-def _verdict(state: State) -> str:
+def _verdict(state: MeasuredMesh) -> str:
     summary = state.summary
     if summary.inverted:
         locked = summary.locked_inverted

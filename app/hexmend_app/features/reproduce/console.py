@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPlainTextEdit, QV
 
 import hexmend
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.task import Task
 from hexmend_app.theme.spacing import fill
@@ -127,7 +127,7 @@ class _Python(InteractiveConsole):
         self.write("".join(traceback.format_exception_only(*sys.exc_info()[:2])))
 
 
-def _run(python: _Python, source: str, mesh: Mesh | None) -> tuple[bool, str, State | None]:
+def _run(python: _Python, source: str, mesh: Mesh | None) -> tuple[bool, str, MeasuredMesh | None]:
     """Run a line; return True if the block continues, its output, and the state of another mesh assigned to `mesh`."""
     output, state, more = io.StringIO(), None, False
     with redirect_stdout(output), redirect_stderr(output):
@@ -140,6 +140,6 @@ def _run(python: _Python, source: str, mesh: Mesh | None) -> tuple[bool, str, St
     if new is not mesh and not isinstance(new, Mesh):
         output.write(f"mesh not changed: expected mesh to be a hexmend Mesh, not {type(new).__name__}\n")
     elif new is not mesh:
-        state = State.of(new if mesh is not None and new.hexes is mesh.hexes else new.keeping_surface())
+        state = MeasuredMesh.of(new if mesh is not None and new.hexes is mesh.hexes else new.keeping_surface())
         _ = new.topology.face_neighbours, new.topology.layers  # for drawing, which the window shall not wait for
     return more, output.getvalue(), state

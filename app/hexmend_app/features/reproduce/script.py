@@ -26,7 +26,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.terminal_text import printable
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Scene, to_toml
-from hexmend_app.state.mesh.document import Command, State
+from hexmend_app.state.mesh.document import Command, MeasuredMesh
 from hexmend_app.state.session.session import Session
 
 #: First words of the comment on the view.
@@ -48,7 +48,7 @@ WIDTH = 110
 def script_of(session: Session, scene: Scene | None = None) -> str:
     """Return the script of the open mesh, which `python FILE` runs, with the scene of the view at its end."""
     document, body, imports = session.document, [], {"import hexmend as hx"}
-    names: dict[State, str] = {}
+    names: dict[MeasuredMesh, str] = {}
     if document.is_open:
         shown = document.now if document.previews and not session.run.busy else document.recorded
         titles = {change.state: change.title for change in document.to_data().changes}
@@ -65,7 +65,7 @@ def script_of(session: Session, scene: Scene | None = None) -> str:
     return "\n\n".join([head, "\n".join(sorted(imports)), *body]) + "\n"
 
 
-def _commands(session: Session, state: State) -> dict[State, Command]:
+def _commands(session: Session, state: MeasuredMesh) -> dict[MeasuredMesh, Command]:
     """Return the calls that lead to a state, in an order in which they can run."""
     document, commands, needed = session.document, {}, [state]
     while needed:
@@ -80,7 +80,7 @@ def _commands(session: Session, state: State) -> dict[State, Command]:
     return {state: commands[state] for state in order}
 
 
-def _read(session: Session, state: State) -> Command:
+def _read(session: Session, state: MeasuredMesh) -> Command:
     """Return the call that reads a mesh which no call makes; without a file that has it, one of its name is read."""
     document = session.document
     path = next((original.path for original in document.originals if original.mesh is state.mesh), None)
@@ -89,7 +89,7 @@ def _read(session: Session, state: State) -> Command:
     return Command("read", values=(str(path.absolute()), *unsaved))
 
 
-def _source(command: Command, names: dict[State, str], imports: set[str]) -> str:
+def _source(command: Command, names: dict[MeasuredMesh, str], imports: set[str]) -> str:
     """Return the source of a call; add to the imports those that it needs."""
     meshes = [names[state] for state in command.meshes]
     if command.name == "read":
@@ -129,7 +129,7 @@ def _smooth_source(mesh: str, recipe: Recipe) -> str:
     return f"hx.smooth({', '.join(arguments)})"
 
 
-def _saved(session: Session, names: dict[State, str], commands: dict[State, Command]) -> list[str]:
+def _saved(session: Session, names: dict[MeasuredMesh, str], commands: dict[MeasuredMesh, Command]) -> list[str]:
     """Return the source that writes the files that were saved."""
     meshes = {state.mesh: name for state, name in names.items()}
     read = {command.values[0] for command in commands.values() if command.name == "read"}

@@ -13,7 +13,7 @@ from hexmend.io import unsupported_data
 from hexmend.io.storage.file_progress import FileProgress
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.formats.session import SUFFIX
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
@@ -104,7 +104,7 @@ class FeatureSave(Feature):
         mesh, shown = self.session.document.now.mesh, self.canvas.viewport.remaining_after_cut()
         shown = np.ones(mesh.n_hexes, bool) if shown is None else shown
         if shown.any():
-            part = State.of(extract_hexes(mesh, shown))
+            part = MeasuredMesh.of(extract_hexes(mesh, shown))
             self.session.saver.save(SaveTask(path, part, part, None, rewrite=True))
         else:
             self.host.messages.show_error(tr("No hex is visible"), tr("Show the hexes that are to be saved first."))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.view.side_views import NOW
 from hexmend_app.theme.palette import BLUE, KEPT, Role
 from hexmend_app.translation import tr
@@ -99,6 +99,6 @@ class FeatureSideViews(Feature):
         ]
         self.canvas.show_captions(captions, self._views.wipe)
 
-    def _colour(self, state: State) -> Role | None:
+    def _colour(self, state: MeasuredMesh) -> Role | None:
         snapshot = self._snapshots.of(state)
         return None if snapshot is None else KEPT[snapshot.slot]

@@ -16,7 +16,7 @@ from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer
 from hexmend_app.scene.page.rasters import PageViews, page_views
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History, RunRecord
 
 
@@ -34,7 +34,7 @@ def _place(record: RunRecord, number: int) -> str:
 def pictures(
     record: RunRecord,
     numbers: Sequence[int],
-    state: Callable[[int], State],
+    state: Callable[[int], MeasuredMesh],
     scene: Scene,
     *,
     movement: Displacement | None = None,

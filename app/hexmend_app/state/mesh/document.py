@@ -20,7 +20,7 @@ OWN_PARTS = ("pinned", "hex_sets", "cells", "target")
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class MeasuredMesh:
     """A mesh with its quality.
 
     Parameters
@@ -37,9 +37,9 @@ class State:
     summary: Summary
 
     @classmethod
-    def of(cls, mesh: Mesh) -> State:
-        """Measure a mesh and return its state."""
-        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    def of(cls, mesh: Mesh, figures: ElementQuality | None = None) -> MeasuredMesh:
+        """Measure a mesh, whose quality may be known already."""
+        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if figures is None else figures
         return cls(mesh, figures, summarise(mesh, figures))
 
 
@@ -52,7 +52,7 @@ class Command:
     name : str
         Name of the function: "read"; "smooth"; "move", which moves the nodes of the first mesh to their positions in
         the second; or one that changes the first mesh, such as "fix".
-    meshes : tuple of State
+    meshes : tuple of MeasuredMesh
         Meshes among the arguments. "smooth" runs on the first; the result has all but the positions from the last.
     values : tuple
         Other arguments: strings, numbers, booleans, None, lists of them, or arrays of integers.
@@ -61,7 +61,7 @@ class Command:
     """
 
     name: str
-    meshes: tuple[State, ...] = ()
+    meshes: tuple[MeasuredMesh, ...] = ()
     values: tuple[Any, ...] = ()
     recipe: Recipe | None = None
 
@@ -71,7 +71,7 @@ class Change:
     """A recorded state, and the title of the change that led to it."""
 
     title: str
-    state: State
+    state: MeasuredMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,23 +99,23 @@ class DocumentData:
     changes : tuple of Change
     at : int
         Index of the current change.
-    saved : State or None
+    saved : MeasuredMesh or None
         State in the file.
-    now : State
+    now : MeasuredMesh
         State that is shown.
     files : tuple of FileMesh
         Files that were opened or saved, the last one at the end.
-    journal : tuple of (State, Command)
+    journal : tuple of (MeasuredMesh, Command)
         Calls that make the states.
     """
 
     path: str | None
     changes: tuple[Change, ...]
     at: int
-    saved: State | None
-    now: State
+    saved: MeasuredMesh | None
+    now: MeasuredMesh
     files: tuple[FileMesh, ...]
-    journal: tuple[tuple[State, Command], ...]
+    journal: tuple[tuple[MeasuredMesh, Command], ...]
 
     def __post_init__(self) -> None:
         if not 0 <= self.at < len(self.changes):
@@ -141,9 +141,9 @@ class Document(QObject):
     ----------
     path : Path or None
         File of the mesh.
-    now : State or None
+    now : MeasuredMesh or None
         The state that is shown; None if no mesh is open.
-    journal : mapping of State to Command
+    journal : mapping of MeasuredMesh to Command
         Calls that make the states; states of a sweep, of a case and of the console have none.
     """
 
@@ -154,12 +154,12 @@ class Document(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.path: Path | None = None
-        self.now: State | None = None
+        self.now: MeasuredMesh | None = None
         self._changes: list[Change] = []
         self._at = 0
-        self._saved: State | None = None
+        self._saved: MeasuredMesh | None = None
         self._files: dict[Path, Mesh] = {}
-        self.journal: WeakKeyDictionary[State, Command] = WeakKeyDictionary()
+        self.journal: WeakKeyDictionary[MeasuredMesh, Command] = WeakKeyDictionary()
 
     @property
     def is_open(self) -> bool:
@@ -167,7 +167,7 @@ class Document(QObject):
         return self.now is not None
 
     @property
-    def start(self) -> State:
+    def start(self) -> MeasuredMesh:
         """The state as opened, or after the last change of the hexes or nodes."""
         hexes = self._changes[self._at].state.mesh.hexes
         at = self._at
@@ -189,7 +189,7 @@ class Document(QObject):
         """True if there are unsaved changes."""
         return self.is_open and self._changes[self._at].state is not self._saved
 
-    def replace(self, state: State, path: Path | None) -> None:
+    def replace(self, state: MeasuredMesh, path: Path | None) -> None:
         """Open a mesh and discard the previous changes; runs slide nodes on its present boundary."""
         state = replace(state, mesh=state.mesh.keeping_surface())
         self.path = path
@@ -202,7 +202,7 @@ class Document(QObject):
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
-    def preview(self, state: State) -> None:
+    def preview(self, state: MeasuredMesh) -> None:
         """Show a state without recording a change."""
         self.now = state
         self.points_moved.emit()
@@ -212,7 +212,7 @@ class Document(QObject):
         """True if the state shown is not the current change: an iteration of a run or of the history."""
         return self.is_open and self.now is not self._changes[self._at].state
 
-    def in_effect(self, state: State) -> bool:
+    def in_effect(self, state: MeasuredMesh) -> bool:
         """Return True if a recorded state has neither been undone, nor the nodes been moved back from it by reset."""
         states = [change.state for change in self._changes[: self._at + 1]]
         if state not in states:  # states are equal to themselves alone
@@ -220,14 +220,14 @@ class Document(QObject):
         points = states[-1].mesh.points
         return not any(earlier.mesh.points is points for earlier in states[: states.index(state)])
 
-    def commit(self, title: str, state: State, show: bool = True, command: Command | None = None) -> None:
+    def commit(self, title: str, state: MeasuredMesh, show: bool = True, command: Command | None = None) -> None:
         """Record a state as a change, unless it has the positions, hexes and `OWN_PARTS` of the current change.
 
         Parameters
         ----------
         title : str
             Title of the change in Undo and Redo.
-        state : State
+        state : MeasuredMesh
         show : bool
             False to leave the state shown as it is.
         command : Command, optional
@@ -274,7 +274,7 @@ class Document(QObject):
             mesh = self.now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:  # at a time of a case, whose boundary had moved
                 mesh = mesh.moving_from(start.mesh.surface_points)
-            state = State(mesh, start.figures, summarise(mesh, start.figures))
+            state = MeasuredMesh.of(mesh, start.figures)
             self.commit("reset", state, command=Command("move", (self.now, start)))
 
     @property
@@ -283,16 +283,16 @@ class Document(QObject):
         return tuple(Original(path, mesh) for path, mesh in reversed(self._files.items()))
 
     @property
-    def states(self) -> list[State]:
+    def states(self) -> list[MeasuredMesh]:
         """The states of all changes, in their order."""
         return [change.state for change in self._changes]
 
     @property
-    def recorded(self) -> State:
+    def recorded(self) -> MeasuredMesh:
         """The state of the current change; a mesh is open."""
         return self._changes[self._at].state
 
-    def mark_saved(self, path: Path, state: State | None = None) -> bool:
+    def mark_saved(self, path: Path, state: MeasuredMesh | None = None) -> bool:
         """Mark a state as saved, by default the one shown, unless its mesh is no longer open.
 
         Returns
@@ -314,7 +314,7 @@ class Document(QObject):
         path = None if self.path is None else str(self.path)
         files = tuple(FileMesh(str(path), mesh) for path, mesh in self._files.items())
         needed = [self.now, *(change.state for change in self._changes)]
-        journal: dict[State, Command] = {}
+        journal: dict[MeasuredMesh, Command] = {}
         while needed:
             state = needed.pop()
             if state in self.journal and state not in journal:

@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
-from hexmend_app.state.mesh.document import OWN_PARTS, Command, State
+from hexmend_app.state.mesh.document import OWN_PARTS, Command, MeasuredMesh
 from hexmend_app.state.mesh.history_data import HistoryData, to_data
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.settings.settings import HISTORY_MEGABYTES
@@ -43,7 +43,7 @@ class History:
         self._limit = limit
         self._bytes = 0
         self._lock = threading.Lock()
-        self._moments: WeakKeyDictionary[State, RecordedIteration] = WeakKeyDictionary()
+        self._moments: WeakKeyDictionary[MeasuredMesh, RecordedIteration] = WeakKeyDictionary()
 
     @property
     def bytes(self) -> int:
@@ -61,14 +61,14 @@ class History:
             self._limit = limit
             self._thin()
 
-    def begin(self, title: str, start: State) -> RunRecord:
+    def begin(self, title: str, start: MeasuredMesh) -> RunRecord:
         """Add and return the record of a new run, whose parent is the iteration that `start` shows.
 
         Parameters
         ----------
         title : str
             Title of the method or the recipe.
-        start : State
+        start : MeasuredMesh
         """
         names = {record.name for record in self.records}
         count = 1
@@ -96,7 +96,9 @@ class History:
                 self._thin()
             record.rows.append(row)  # last, so that the positions of every row are there
 
-    def finish(self, record: RunRecord, result: RecordedIteration | None, end: State | None, message: str) -> None:
+    def finish(
+        self, record: RunRecord, result: RecordedIteration | None, end: MeasuredMesh | None, message: str
+    ) -> None:
         """Complete the record of a run that has ended; a record without iterations is removed."""
         record.message = message
         if record.newest < 1:
@@ -121,7 +123,7 @@ class History:
         for record in list(self.records):
             self.remove(record)
 
-    def to_data(self, states: Iterable[State]) -> HistoryData:
+    def to_data(self, states: Iterable[MeasuredMesh]) -> HistoryData:
         """Return the data for a session file, with the iterations that some states show."""
         with self._lock:
             started = [record for record in self.records if record.rows]
@@ -155,11 +157,11 @@ class History:
         with self._lock:
             self._thin()
 
-    def register_state(self, state: State, moment: RecordedIteration) -> None:
+    def register_state(self, state: MeasuredMesh, moment: RecordedIteration) -> None:
         """Remember which iteration a state shows."""
         self._moments[state] = moment
 
-    def iteration_of(self, state: State | None) -> RecordedIteration | None:
+    def iteration_of(self, state: MeasuredMesh | None) -> RecordedIteration | None:
         """Find the iteration that a state shows, even after nodes were fixed or hexes tagged; None if there is none."""
         if state is None:
             return None
@@ -171,14 +173,14 @@ class History:
             self._moments[state] = moment  # the other state may be deleted before this one
         return self._moments[state]
 
-    def command_of(self, state: State, recorded: State) -> Command | None:
+    def command_of(self, state: MeasuredMesh, recorded: MeasuredMesh) -> Command | None:
         """Return the call that makes an iteration of a run again; None for other states.
 
         Parameters
         ----------
-        state : State
+        state : MeasuredMesh
             State shown.
-        recorded : State
+        recorded : MeasuredMesh
             State of the current change, which has the same `OWN_PARTS`.
         """
         moment = self.iteration_of(state)
@@ -196,7 +198,7 @@ class History:
         with self._lock:
             return record.numbers()
 
-    def state(self, moment: RecordedIteration, mesh: Mesh) -> State:
+    def state(self, moment: RecordedIteration, mesh: Mesh) -> MeasuredMesh:
         """Return the state at an iteration, or at the nearest recorded one; `iteration_of` tells which.
 
         Parameters
@@ -234,11 +236,11 @@ class History:
             self._bytes -= record._offsets.pop(numbers[at]).nbytes
 
 
-def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> State:
+def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> MeasuredMesh:
     """Return the state of the open mesh with the positions of a record."""
     mesh = mesh.with_points(points)
     surface = mesh.points if record.holds_times else record.start.mesh.surface_points
-    return State.of(mesh if mesh.surface_points is surface else mesh.moving_from(surface))
+    return MeasuredMesh.of(mesh if mesh.surface_points is surface else mesh.moving_from(surface))
 
 
 def _same_own_parts(mesh: Mesh, other: Mesh) -> bool:

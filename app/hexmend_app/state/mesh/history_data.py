@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.advice import Advice
 from hexmend.run.recipe import Recipe
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.run_record import NodeOffsets, RunRecord
 
 #: Columns that the row of every iteration has, for any method.
@@ -23,11 +23,11 @@ class RecordData:
 
     name: str
     title: str
-    start: State
+    start: MeasuredMesh
     parent: tuple[int, int] | None
     rows: tuple[dict[str, Any], ...]
     result: int | None
-    end: State | None
+    end: MeasuredMesh | None
     message: str
     pauses: tuple[tuple[int, str], ...]
     advice: Advice | None
@@ -70,7 +70,7 @@ class HistoryData:
     """Data of the history in a session file: its runs, and the iterations that some states show (run, number)."""
 
     records: tuple[RecordData, ...]
-    moments: tuple[tuple[State, int, int], ...]
+    moments: tuple[tuple[MeasuredMesh, int, int], ...]
 
     def __post_init__(self) -> None:
         for at, record in enumerate(self.records):

@@ -14,7 +14,7 @@ import numpy as np
 from hexmend.advice import Advice
 from hexmend.iteration import Outcome
 from hexmend.run.recipe import Recipe, Stage
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.translation import tr
 
 #: Column of the times of a case in the rows of their record: the time as text, or `CONSTANT` for number 0.
@@ -52,7 +52,7 @@ class RunRecord:
         Unique name: the title, with a number if there are several runs.
     title : str
         Title of the method or recipe.
-    start : State
+    start : MeasuredMesh
         State before the run.
     parent : RecordedIteration or None
         Iteration of another run from which this run started.
@@ -60,7 +60,7 @@ class RunRecord:
         `Iteration.row` of every iteration from number 0, with its scalar diagnostics.
     result : int or None
         Number of the iteration that is the run's result; None until it has ended.
-    end : State or None
+    end : MeasuredMesh or None
         State of the result.
     outcome : Outcome or None
         Why the run ended; None until it has ended, if it failed, and for a run from a session file.
@@ -82,12 +82,12 @@ class RunRecord:
         True to show the run in charts.
     """
 
-    def __init__(self, name: str, title: str, start: State, parent: RecordedIteration | None, slot: int = 0):
+    def __init__(self, name: str, title: str, start: MeasuredMesh, parent: RecordedIteration | None, slot: int = 0):
         self.name, self.title, self.start, self.parent, self.slot = name, title, start, parent, slot
         self.plotted = True
         self.rows: list[dict[str, Any]] = []
         self.result: int | None = None
-        self.end: State | None = None
+        self.end: MeasuredMesh | None = None
         self.outcome: Outcome | None = None
         self.better: int | None = None
         self.message = ""

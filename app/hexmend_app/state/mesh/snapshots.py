@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 
 #: Maximum number of snapshots: as many as there are colours that all kinds of colour vision distinguish.
 MAX_SNAPSHOTS = 6
@@ -67,11 +67,11 @@ class Snapshots(QObject):
         """True if no further snapshot can be taken."""
         return len(self.all) == MAX_SNAPSHOTS
 
-    def of(self, state: State) -> Snapshot | None:
+    def of(self, state: MeasuredMesh) -> Snapshot | None:
         """Return the snapshot of a state; None if there is none."""
         return next((snapshot for snapshot in self.all if snapshot.points is state.mesh.points), None)
 
-    def add(self, name: str, state: State) -> None:
+    def add(self, name: str, state: MeasuredMesh) -> None:
         """Add a snapshot, unless there are `MAX_SNAPSHOTS`; a number is appended to a name that is in use."""
         if not self.full:
             slot = min(set(range(MAX_SNAPSHOTS)) - {snapshot.slot for snapshot in self.all})

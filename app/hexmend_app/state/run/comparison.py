@@ -16,13 +16,12 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.parameters import from_values
-from hexmend.quality import measure, summarise
 from hexmend.run import Run, StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.tasks.task import Task, drop
 
 #: Seconds between two reports of the progress.
@@ -37,19 +36,19 @@ class MethodResult:
     ----------
     row : Row
         Row of the table: quality, time, outcome.
-    state : State or None
+    state : MeasuredMesh or None
         The resulting mesh; None if the method failed.
     """
 
     row: Row
-    state: State | None
+    state: MeasuredMesh | None
 
 
 @dataclass(frozen=True, eq=False)
 class ComparisonData:
     """Data of a comparison in a session file: initial state, limits, number of methods requested, results, rules."""
 
-    initial: State | None
+    initial: MeasuredMesh | None
     stop: StoppingCriteria
     asked: int
     results: tuple[MethodResult, ...]
@@ -87,7 +86,7 @@ class ComparisonProgress:
 
 
 def _run_all(
-    state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules, task: Task
+    state: MeasuredMesh, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules, task: Task
 ) -> None:
     """Run methods one after another on one mesh, and report progress and results; if one fails, its row says so."""
     try:
@@ -119,8 +118,7 @@ def _result_of(row: Row, initial: Mesh) -> MethodResult:
     if row.mesh is None:
         return MethodResult(row, None)
     mesh = initial.with_points(row.mesh.points)
-    figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-    return MethodResult(replace(row, mesh=mesh), State(mesh, figures, summarise(mesh, figures)))
+    return MethodResult(replace(row, mesh=mesh), MeasuredMesh.of(mesh))
 
 
 class Comparison(QObject):
@@ -135,7 +133,7 @@ class Comparison(QObject):
 
     Attributes
     ----------
-    initial : State or None
+    initial : MeasuredMesh or None
         State that the methods start from; None if nothing was compared.
     results : tuple of MethodResult
         Results of the finished methods.
@@ -153,7 +151,7 @@ class Comparison(QObject):
         self.progress: ComparisonProgress | None = None
         self._stop, self._rules = StoppingCriteria(), MotionRules()
         self._asked = 0
-        self.initial: State | None = None
+        self.initial: MeasuredMesh | None = None
         self.results: tuple[MethodResult, ...] = ()
         document.mesh_replaced.connect(self._clear)
 
@@ -210,7 +208,7 @@ class Comparison(QObject):
         """Return the result of a method; None if there is none yet."""
         return next((result for result in self.results if result.row.method == method), None)
 
-    def recipe_of(self, state: State) -> Recipe | None:
+    def recipe_of(self, state: MeasuredMesh) -> Recipe | None:
         """Return what repeats the result that is a state; None for other states, and if the method is unknown."""
         row = next((result.row for result in self.results if result.state is state), None)
         if row is None or row.method not in METHODS:

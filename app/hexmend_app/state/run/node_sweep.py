@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.smoothers.local.single_node import LocalDescent
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.node_step import NodeStep, Sweep
 
 
@@ -36,7 +36,7 @@ class NodeSweep(QObject):
         self.sweep: Sweep | None = None
         self.last: NodeStep | None = None
         self._smoother: LocalDescent | None = None
-        self._state: State | None = None  # after the last step
+        self._state: MeasuredMesh | None = None  # after the last step
         document.mesh_replaced.connect(self._clear)
         document.points_moved.connect(self._on_moved)
 
@@ -76,7 +76,7 @@ class NodeSweep(QObject):
         return self.sweep
 
     def _show(self) -> None:
-        self._state = State.of(self._document.now.mesh.with_points(self.sweep.points))
+        self._state = MeasuredMesh.of(self._document.now.mesh.with_points(self.sweep.points))
         if self.sweep.finished:
             self.leave()
         else:

@@ -16,7 +16,7 @@ from hexmend.mesh.rules import MotionRules
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import Command, Document, State
+from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_settings import rules_text, settings_text
@@ -93,7 +93,7 @@ class RunController(QObject):
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
         self.outcome: Outcome | None = None
-        self._result: State | None = None  # recorded at the end of the last run
+        self._result: MeasuredMesh | None = None  # recorded at the end of the last run
         self.following = True
         self.iterating = False
         self.phase = Phase.IDLE
@@ -318,7 +318,7 @@ class RunController(QObject):
         for callback in callbacks:
             callback()
 
-    def _kept(self, last: IterationFrame | None) -> tuple[RecordedIteration | None, State | None]:
+    def _kept(self, last: IterationFrame | None) -> tuple[RecordedIteration | None, MeasuredMesh | None]:
         """Return the iteration that a run keeps, with its state: the one that is shown if the user has stopped it."""
         shown = self.history.iteration_of(self._document.now)
         if self.outcome is Outcome.STOPPED and not self.following and shown is not None and shown.record is self.record:
@@ -328,7 +328,7 @@ class RunController(QObject):
         number = last.iteration.number
         return RecordedIteration(self.record, number), last.state if number else self.record.start
 
-    def _command_of(self, end: State) -> Command | None:
+    def _command_of(self, end: MeasuredMesh) -> Command | None:
         """Return the call that makes the result of the run."""
         if end is self.record.start:
             return None

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from hexmend.quality import summarise
-from hexmend_app.state.mesh.document import OWN_PARTS, Document, State
+from hexmend_app.state.mesh.document import OWN_PARTS, Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.settings.settings import ITERATIONS_PLAYED
@@ -101,7 +100,7 @@ class Timeline(QObject):
             mesh = now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:
                 mesh = mesh.moving_from(start.mesh.surface_points)
-            state = State(mesh, start.figures, summarise(mesh, start.figures))
+            state = MeasuredMesh.of(mesh, start.figures)
         if now.mesh.points is not start.mesh.points:
             self._document.preview(state)
 

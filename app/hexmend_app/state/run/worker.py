@@ -11,11 +11,10 @@ from hexmend.iteration import Iteration, Outcome, Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
-from hexmend.quality import summarise
 from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.run.breakpoints import BreakpointHit, Breakpoints
 from hexmend_app.state.tasks.task import Task
@@ -26,7 +25,7 @@ class IterationFrame:
     """An iteration, its state, measured in the worker, and the breakpoint that it reached."""
 
     iteration: Iteration
-    state: State
+    state: MeasuredMesh
     hit: BreakpointHit | None = None
 
 
@@ -197,7 +196,7 @@ class Worker:
         for metric in self.metrics:
             metric_values(metric, moved, iteration.quality)
         self.mailbox.wait_until_taken(lambda: self.shows_every and not self.task.cancelled.is_set())
-        self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
+        self.last = IterationFrame(iteration, MeasuredMesh.of(moved, iteration.quality), hit)
         self.mailbox.put(self.last)
 
     def _may_continue(self, run: Run) -> bool:

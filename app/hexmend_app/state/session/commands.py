@@ -21,7 +21,7 @@ from hexmend.run.memory import available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.formats.session import SUFFIX
-from hexmend_app.state.mesh.document import Command, Document, State
+from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
 from hexmend_app.state.run.run_controller import RunController
 from hexmend_app.state.tasks.mesh_change import MeshChanger, PaddingChoice, pad_mesh, repair_mesh
 from hexmend_app.state.tasks.mesh_opener import MeshOpener
@@ -128,16 +128,16 @@ class Commands(QObject):
         if self._begin_edit():
             self.document.reset()
 
-    def adopt_positions(self, title: str, state: State) -> None:
+    def adopt_positions(self, title: str, state: MeasuredMesh) -> None:
         """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._begin_edit():
             now, comparison = self.document.now, self._session.comparison
             mesh = now.mesh.with_points(state.mesh.points)
             recipe = comparison.recipe_of(state)
             command = None if recipe is None else Command("smooth", (comparison.initial, now), recipe=recipe)
-            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)), command=command)
+            self.document.commit(title, MeasuredMesh.of(mesh, state.figures), command=command)
 
-    def replace_mesh(self, title: str, state: State) -> bool:
+    def replace_mesh(self, title: str, state: MeasuredMesh) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
         if not self._begin_edit():
             return False
@@ -194,7 +194,7 @@ class Commands(QObject):
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
             command = Command(change.__name__, (now,), values)
-            self.document.commit(title, State(mesh, now.figures, summary), command=command)
+            self.document.commit(title, MeasuredMesh(mesh, now.figures, summary), command=command)
 
     def repair(self, kinds: Sequence[str] = ()) -> None:
         """Start repairing some kinds of problem, or all, if the mesh is editable; see `Session.repairer`."""

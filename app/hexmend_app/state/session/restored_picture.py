@@ -14,7 +14,7 @@ from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.picture_metadata import PicturedMesh, PictureMetadata, digest
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, NOW
 
 
@@ -41,7 +41,7 @@ class RestoredMesh:
         Name in the picture.
     file : str
         Name of its file; "" if unknown.
-    state : State or None
+    state : MeasuredMesh or None
         State with the hexes of the first mesh; None if the mesh cannot be shown next to it.
     problem : RestoreProblem or None
     error : HexmendError or None
@@ -52,7 +52,7 @@ class RestoredMesh:
 
     name: str
     file: str
-    state: State | None = None
+    state: MeasuredMesh | None = None
     problem: RestoreProblem | None = None
     error: HexmendError | None = None
     path: Path | None = None
@@ -68,7 +68,7 @@ class RestoredPicture:
     metadata : PictureMetadata
     path : Path
         File of the first mesh.
-    state : State
+    state : MeasuredMesh
         State of the first mesh.
     look : Look
         Appearance in the picture.
@@ -81,7 +81,7 @@ class RestoredPicture:
     picture: Path
     metadata: PictureMetadata
     path: Path
-    state: State
+    state: MeasuredMesh
     look: Look
     digest: str
     others: tuple[RestoredMesh, ...] = ()
@@ -110,7 +110,7 @@ class MissingMesh:
 
 
 def restore_picture(
-    missing: MissingMesh, path: Path, states: Iterable[State], on_read: Callable[[Path], object]
+    missing: MissingMesh, path: Path, states: Iterable[MeasuredMesh], on_read: Callable[[Path], object]
 ) -> RestoredPicture:
     """Restore the meshes of a picture.
 
@@ -119,7 +119,7 @@ def restore_picture(
     missing : MissingMesh
     path : Path
         File of the first mesh.
-    states : iterable of State
+    states : iterable of MeasuredMesh
         States in that file; a session may have several. If the picture shows none of them, the first is used.
     on_read : callable
         Called with the path of every other file before it is read.
@@ -150,9 +150,9 @@ def restore_picture(
     return RestoredPicture(picture, metadata, path, state, look, digest(state.mesh), tuple(others))
 
 
-def _by_digest(states: Iterable[State]) -> dict[str, State]:
+def _by_digest(states: Iterable[MeasuredMesh]) -> dict[str, MeasuredMesh]:
     """Return states by the digests of their meshes; of states with equal meshes, the first."""
-    result: dict[str, State] = {}
+    result: dict[str, MeasuredMesh] = {}
     for state in dict.fromkeys(states):
         result.setdefault(digest(state.mesh), state)
     return result
@@ -173,7 +173,7 @@ def _mesh_names(metadata: PictureMetadata) -> dict[int, str]:
 
 
 def _read_mesh(
-    name: str, pictured: PicturedMesh, picture: Path, first: State, on_read: Callable[[Path], object]
+    name: str, pictured: PicturedMesh, picture: Path, first: MeasuredMesh, on_read: Callable[[Path], object]
 ) -> RestoredMesh:
     """Read a mesh from its own file and restore it."""
     paths = pictured.candidates(picture)
@@ -181,13 +181,15 @@ def _read_mesh(
         return RestoredMesh(name, pictured.file, problem=RestoreProblem.FILE if pictured.file else RestoreProblem.NAME)
     on_read(paths[0])
     try:
-        state = State.of(read(paths[0]))
+        state = MeasuredMesh.of(read(paths[0]))
     except HexmendError as error:
         return RestoredMesh(name, paths[0].name, problem=RestoreProblem.READING, error=error)
     return _restore_mesh(name, pictured, paths[0], state, first)
 
 
-def _restore_mesh(name: str, pictured: PicturedMesh, path: Path, state: State, first: State) -> RestoredMesh:
+def _restore_mesh(
+    name: str, pictured: PicturedMesh, path: Path, state: MeasuredMesh, first: MeasuredMesh
+) -> RestoredMesh:
     """Restore a mesh for a side view, with the hexes of the first mesh."""
     found = digest(state.mesh)
     if found == pictured.opened != pictured.shown:

@@ -11,13 +11,13 @@ from hexmend.errors import FileError, HexmendError, MeshError
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
-from hexmend.quality import measure, summarise
+from hexmend.quality import measure
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec.conversion import Hooks, decode, encode
 from hexmend_app.formats.session import SUFFIX, is_session
 from hexmend_app.formats.session.session_file import read_session, write_session
 from hexmend_app.picture.named_cameras import NamedCameras
-from hexmend_app.state.mesh.document import DocumentData, State
+from hexmend_app.state.mesh.document import DocumentData, MeasuredMesh
 from hexmend_app.state.mesh.history import HistoryData
 from hexmend_app.state.mesh.selection import SelectionData
 from hexmend_app.state.mesh.snapshots import Snapshot
@@ -66,13 +66,13 @@ class SessionData:
         if not 0 <= (self.timeline or 0) < max(len(self.history.records), self.timeline is None):
             raise ValueError(f"there is no run {self.timeline}")
 
-    def states(self) -> Iterator[State]:
+    def states(self) -> Iterator[MeasuredMesh]:
         """Yield every complete state of the mesh: the shown state first, then the states of changes and comparisons."""
         yield self.document.now
         yield from (change.state for change in self.document.changes)
         yield from self._compared()
 
-    def _compared(self) -> Iterator[State]:
+    def _compared(self) -> Iterator[MeasuredMesh]:
         """Yield the states that must have the hexes of the open mesh."""
         yield from (side_view.state for side_view in self.side_views.shown)
         yield from (record.start for record in self.history.records)
@@ -114,7 +114,7 @@ def _encoded(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
 
     window = encode(data, {
         Mesh: number,
-        State: lambda state: number(state.mesh),
+        MeasuredMesh: lambda state: number(state.mesh),
         Smoother: lambda smoother: {"method": smoother.name, "parameters": smoother.values()},
     })  # fmt: skip
     return tuple(numbers), number(data.document.now.mesh), window
@@ -130,7 +130,7 @@ def read(path: Path) -> SessionData:
     """
     stored = read_session(path)
     states = _States(stored.meshes)
-    hooks: Hooks = {State: states, Mesh: lambda number: states(number).mesh, Smoother: _smoother}
+    hooks: Hooks = {MeasuredMesh: states, Mesh: lambda number: states(number).mesh, Smoother: _smoother}
     try:
         data = decode(SessionData, stored.window, hooks=hooks)
         data.history.check()
@@ -144,10 +144,10 @@ class _States:
 
     def __init__(self, meshes: tuple[Mesh, ...]):
         self._meshes = meshes
-        self._states: dict[int, State] = {}
+        self._states: dict[int, MeasuredMesh] = {}
         self._figures: dict[tuple[int, int], Any] = {}
 
-    def __call__(self, number: Any) -> State:
+    def __call__(self, number: Any) -> MeasuredMesh:
         if type(number) is not int or not 0 <= number < len(self._meshes):
             raise MeshError(f"there is no mesh {str(number)[:20]}")
         if number not in self._states:
@@ -155,7 +155,7 @@ class _States:
             key = id(mesh.points), id(mesh.hexes)
             if key not in self._figures:
                 self._figures[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-            self._states[number] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
+            self._states[number] = MeasuredMesh.of(mesh, self._figures[key])
         return self._states[number]
 
 

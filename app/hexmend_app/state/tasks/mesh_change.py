@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.doctor import PROBLEMS, repair
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding import pad
-from hexmend_app.state.mesh.document import Command, Document, State
+from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
 from hexmend_app.state.tasks.task import Task, drop
 
 
@@ -25,7 +25,7 @@ class MeshChange:
         The result as the function of the core returns it.
     title : str
         Title in the undo list.
-    state : State or None
+    state : MeasuredMesh or None
         The changed mesh; None if nothing was changed.
     command : Command
         Call of the core that makes the same change.
@@ -33,7 +33,7 @@ class MeshChange:
 
     outcome: Any
     title: str
-    state: State | None
+    state: MeasuredMesh | None
     command: Command
 
 
@@ -63,7 +63,7 @@ class MeshChanger(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._before: State | None = None
+        self._before: MeasuredMesh | None = None
         self._task: Task | None = None
         document.mesh_replaced.connect(self.cancel)
 
@@ -72,7 +72,7 @@ class MeshChanger(QObject):
         """True while the mesh is being changed."""
         return self._task is not None
 
-    def start(self, name: str, change: Callable[[State, Task], MeshChange]) -> None:
+    def start(self, name: str, change: Callable[[MeasuredMesh, Task], MeshChange]) -> None:
         """Start a change of the mesh, which is editable, by a function of its state and the task."""
         self._before = before = self._document.now
         self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
@@ -106,9 +106,9 @@ class MeshChanger(QObject):
             self.ended.emit(change.outcome)
 
 
-def prepared_state(mesh: Mesh) -> State:
+def prepared_state(mesh: Mesh) -> MeasuredMesh:
     """Measure a changed mesh and compute what the view needs to draw it."""
-    state = State.of(mesh.keeping_surface())
+    state = MeasuredMesh.of(mesh.keeping_surface())
     _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers
     return state
 
@@ -133,7 +133,7 @@ class PaddingChoice(NamedTuple):
     thickness: float | None = None
 
 
-def pad_mesh(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
+def pad_mesh(before: MeasuredMesh, choice: PaddingChoice, task: Task) -> MeshChange:
     """Lay a layer of hexes under the boundary, and mend, measure and prepare the mesh; the outcome is a `Padding`.
 
     Mending ends when the task is cancelled.
@@ -142,7 +142,7 @@ def pad_mesh(before: State, choice: PaddingChoice, task: Task) -> MeshChange:
     return MeshChange(padding, "pad", prepared_state(padding.mesh), Command("pad", (before,), tuple(choice)))
 
 
-def repair_mesh(before: State, kinds: Sequence[str]) -> MeshChange:
+def repair_mesh(before: MeasuredMesh, kinds: Sequence[str]) -> MeshChange:
     """Repair, measure and prepare a mesh; the outcome is a tuple of the findings that were repaired."""
     mesh, repaired = repair(before.mesh, kinds)
     title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)

@@ -13,7 +13,7 @@ from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.io.storage.file_progress import FileProgress, watch_files
 from hexmend_app.picture.picture_metadata import is_png, read_metadata
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture, restore_picture
 from hexmend_app.state.session.session_data import SessionData
@@ -54,7 +54,9 @@ def _reading(progress: FileProgress) -> LoadProgress:
     return LoadProgress(LoadStage.READING, progress.path, file=progress)
 
 
-def _open(path: Path, picture: MissingMesh | None, task: Task) -> State | SessionData | RestoredPicture | MissingMesh:
+def _open(
+    path: Path, picture: MissingMesh | None, task: Task
+) -> MeasuredMesh | SessionData | RestoredPicture | MissingMesh:
     """Read a mesh, a session, or the meshes of a picture, and report the progress of files."""
     with watch_files(FileWatcher(task, _reading, ends=True)):
         if picture is None and is_png(path):
@@ -66,11 +68,11 @@ def _open(path: Path, picture: MissingMesh | None, task: Task) -> State | Sessio
         opened = _read(path, task)
         if picture is None:
             return opened
-        states = [opened] if isinstance(opened, State) else opened.states()
+        states = [opened] if isinstance(opened, MeasuredMesh) else opened.states()
         return restore_picture(picture, path, states, lambda other: task.report(LoadProgress(LoadStage.READING, other)))
 
 
-def _read(path: Path, task: Task) -> State | SessionData:
+def _read(path: Path, task: Task) -> MeasuredMesh | SessionData:
     """Read, measure and prepare a mesh, reporting each stage; errors of any kind are raised as `HexmendError`."""
     try:
         task.report(LoadProgress(LoadStage.READING, path))
@@ -80,7 +82,7 @@ def _read(path: Path, task: Task) -> State | SessionData:
         else:
             mesh = read(path)
             task.report(LoadProgress(LoadStage.MEASURING, path, mesh.n_hexes))
-            opened = State.of(mesh)  # type: ignore[assignment]
+            opened = MeasuredMesh.of(mesh)  # type: ignore[assignment]
         task.report(LoadProgress(LoadStage.PREPARING, path, mesh.n_hexes))
         _ = mesh.topology.face_neighbours, mesh.topology.layers  # the view needs them to draw
     except HexmendError:
@@ -185,7 +187,7 @@ class MeshOpener(QObject):
             self._take(result)
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)
 
-    def _take(self, result: State | SessionData | RestoredPicture) -> None:
+    def _take(self, result: MeasuredMesh | SessionData | RestoredPicture) -> None:
         """Show what was read in the document."""
         if isinstance(result, SessionData):
             self._restoring = True  # busy until it is restored: signals emitted meanwhile are no changes by the user

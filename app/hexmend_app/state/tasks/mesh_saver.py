@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
 from hexmend.io.storage.file_progress import watch_files
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData
 from hexmend_app.state.tasks.file_watcher import FileWatcher
@@ -25,9 +25,9 @@ class SaveTask:
     Parameters
     ----------
     path : Path
-    state : State
+    state : MeasuredMesh
         The state that was shown, which a mesh file contains.
-    recorded : State
+    recorded : MeasuredMesh
         The state that counts as saved afterwards.
     data : SessionData or None
         The content of a session file; None for a mesh file.
@@ -50,7 +50,9 @@ class SaveTask:
         Error of writing, if it failed.
     """
 
-    def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None, rewrite: bool = False):
+    def __init__(
+        self, path: Path, state: MeasuredMesh, recorded: MeasuredMesh, data: SessionData | None, rewrite: bool = False
+    ):
         self.path, self.state, self.recorded, self.data, self.rewrite = path, state, recorded, data, rewrite
         self.omitted: list[str] = []
         self.originals: tuple[Original, ...] = ()

@@ -13,7 +13,7 @@ from hexmend.errors import FileError
 from hexmend.io.formats.openfoam import find_case
 from hexmend.iteration import Iteration
 from hexmend.quality import measure
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import CONSTANT, TIME, RunRecord
 from hexmend_app.state.run.timeline import Timeline
@@ -23,7 +23,7 @@ from hexmend_app.state.tasks.task import Task, drop
 TITLE = "Case times"
 
 
-def _read(path: Path, state: State, task: Task) -> None:
+def _read(path: Path, state: MeasuredMesh, task: Task) -> None:
     """Report each time of a case, an Iteration, or the FileError for which it is left out."""
     try:
         for read in case_times(path, state):
@@ -63,7 +63,7 @@ class TimeReader(QObject):
     def __init__(self, document: Document, timeline: Timeline, parent: QObject | None = None):
         super().__init__(parent)
         self._document, self._timeline, self._history = document, timeline, timeline.history
-        self._state: State | None = None  # of the mesh in constant
+        self._state: MeasuredMesh | None = None  # of the mesh in constant
         self._record: RunRecord | None = None
         self._found: list[FileError] = []
         self.errors: tuple[FileError, ...] = ()
@@ -128,14 +128,14 @@ class TimeReader(QObject):
         self.ended.emit()
 
 
-def case_times(path: Path, state: State) -> Iterator[Iteration | FileError]:
+def case_times(path: Path, state: MeasuredMesh) -> Iterator[Iteration | FileError]:
     """Read and measure the mesh at each time of a case, in order.
 
     Parameters
     ----------
     path : Path
         The case; see `hexmend.io.formats.openfoam.find_case`.
-    state : State
+    state : MeasuredMesh
         The mesh in constant.
 
     Yields
@@ -157,7 +157,7 @@ def case_times(path: Path, state: State) -> Iterator[Iteration | FileError]:
         before = time.points
 
 
-def begin_times(history: History, state: State) -> RunRecord:
+def begin_times(history: History, state: MeasuredMesh) -> RunRecord:
     """Add the record of a case to the history, with the mesh in constant as number 0, and return it."""
     record = history.begin(TITLE, state)
     history.add(record, Iteration(0, state.mesh.points, state.figures, 0.0, 0.0, {TIME: CONSTANT}))

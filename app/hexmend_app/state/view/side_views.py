@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.snapshots import Snapshots
 
 #: Maximum number of side views.
@@ -27,11 +27,11 @@ class SideView:
     ----------
     name : str
         Name in the caption of the view.
-    state : State
+    state : MeasuredMesh
     """
 
     name: str
-    state: State
+    state: MeasuredMesh
 
 
 @dataclass(frozen=True)
@@ -105,11 +105,11 @@ class SideViews(QObject):
         """True if no further view can be shown."""
         return len(self.all) == MAX_SIDE_VIEWS
 
-    def shows(self, state: State) -> bool:
+    def shows(self, state: MeasuredMesh) -> bool:
         """Return True if a side view shows this state."""
         return any(view.state is state for view in self.all)
 
-    def show(self, name: str, state: State) -> bool:
+    def show(self, name: str, state: MeasuredMesh) -> bool:
         """Show a state of the open mesh in a side view, unless a side view shows it; return False if none is free.
 
         A side view with this name shows the new state instead of its former one.

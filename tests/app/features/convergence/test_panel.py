@@ -12,13 +12,13 @@ from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot, describe, reason_if_blank
 from hexmend_app.features.convergence.curves import CHARTS, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, brought, choose, click_until, drag, smooth, turn
 from tests.core.grids import grid, scrambled
 
-START = State.of(grid(2))
+START = MeasuredMesh.of(grid(2))
 
 
 def record(name, count, parent=None, **more):
@@ -259,7 +259,7 @@ def test_the_reason_is_shown_in_the_chart_until_there_is_a_curve(shown):
 # Values of runs as curves.
 
 
-SCRAMBLED = State.of(scrambled(grid(4), 0.4))
+SCRAMBLED = MeasuredMesh.of(scrambled(grid(4), 0.4))
 
 
 def recorded(method, iterations=6, parent=None):

@@ -7,7 +7,7 @@ import pytest
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from tests.app.driving import texts
 
 
@@ -21,7 +21,7 @@ def unmerged():
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.session.document.replace(State.of(unmerged()), None)
+    window.session.document.replace(MeasuredMesh.of(unmerged()), None)
     window.show_panel("doctor")
     panel = window.features["doctor"].panel
     qtbot.waitUntil(panel.isVisible)
@@ -66,10 +66,10 @@ def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
 @pytest.mark.slow
 def test_changes_on_reading_are_remembered(window, panel):
     mesh = unmerged().replace(notes=("8 hexes were renumbered.",))
-    window.session.document.replace(State.of(mesh), None)
+    window.session.document.replace(MeasuredMesh.of(mesh), None)
     window.refresh()
     assert "Changed on reading: 8 hexes were renumbered." in " ".join(texts(panel))
-    window.session.document.replace(State.of(unmerged()), None)
+    window.session.document.replace(MeasuredMesh.of(unmerged()), None)
     window.refresh()
     assert "Changed on reading" not in " ".join(texts(panel))
 
@@ -78,6 +78,6 @@ def test_inverted_hexes_are_named_with_what_helps(window, panel):
     assert "27 hexes are inverted: " in panel.text.text()
     panel.text.linkActivated.emit("smooth")
     assert window.is_visible("run")
-    window.session.document.replace(State.of(make("cube", size=27)), None)
+    window.session.document.replace(MeasuredMesh.of(make("cube", size=27)), None)
     window.refresh()
     assert "inverted" not in panel.text.text()

@@ -19,7 +19,7 @@ from hexmend_app.features.open.welcome import RecentMenu, card
 from hexmend_app.picture import Cut, PicturePanel, Scene, WipeLayout, write_scene
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
 from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
@@ -217,11 +217,11 @@ def test_a_cancelled_file_is_read_no_further(window, qtbot, monkeypatch, mesh_fi
 
 
 def text_of(mesh):
-    return card("a.vtu", State.of(mesh), ())[1]
+    return card("a.vtu", MeasuredMesh.of(mesh), ())[1]
 
 
 def test_it_counts_and_says_what_to_do():
-    title, text = card("a.vtu", State.of(make("bridge-sharp", size=864, scramble=0.6)), ())
+    title, text = card("a.vtu", MeasuredMesh.of(make("bridge-sharp", size=864, scramble=0.6)), ())
     assert title.startswith("a.vtu: 864 hexes, ")
     assert "Run Mend to untangle them" in text
     assert text_of(make("cube", size=27)) == "No hex is invalid. Minimum scaled Jacobian 1.0000."
@@ -233,7 +233,7 @@ def test_it_counts_and_says_what_to_do():
 
 def test_it_says_that_hexes_are_invalid_inside():
     inside = Mesh(THREE.points[THREE.hexes[INSIDE]], [range(8)])
-    title, text = card("a.vtu", State.of(inside), ())
+    title, text = card("a.vtu", MeasuredMesh.of(inside), ())
     assert title == "a.vtu: 1 hex, 0 inverted, 1 invalid"
     assert text.startswith("Solvers may reject 1 hex invalid inside, between valid corners.")
 

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.pad.feature import PadDialog
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from tests.core.grids import grid
 
@@ -21,7 +21,7 @@ def dented():
 
 @pytest.fixture
 def session(window):
-    window.session.document.replace(State.of(dented()), None)
+    window.session.document.replace(MeasuredMesh.of(dented()), None)
     return window.session
 
 
@@ -52,7 +52,7 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
 @pytest.mark.slow
 def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
     mesh = session.document.now.mesh.replace(side_sets={"one": np.array([[4, 4]])})
-    session.document.replace(State.of(mesh), None)
+    session.document.replace(MeasuredMesh.of(mesh), None)
     before = session.document.now
     with qtbot.waitSignal(session.padder.failed):
         session.commands.pad(PaddingChoice("one"))

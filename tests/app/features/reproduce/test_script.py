@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushBu
 from hexmend import METHODS, Mesh, MotionRules, Recipe, Stage, StoppingCriteria, io
 from hexmend.gallery import make
 from hexmend_app.features.reproduce.script import script_of
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
@@ -140,7 +140,7 @@ def test_the_journal_is_in_a_session_file(session, qtbot, tmp_path):
 
 
 def test_a_mesh_in_no_file_has_to_be_saved_first(session):
-    session.document.replace(State.of(make("cube", size=8)), None)
+    session.document.replace(MeasuredMesh.of(make("cube", size=8)), None)
     assert re.search(r"mesh_0 = hx.read\(.*cube-8.vtu.*  # Save the mesh", script_of(session))
 
 

@@ -14,7 +14,7 @@ from hexmend.gallery import make
 from hexmend_app.features.smooth.feature import FeatureSmooth
 from hexmend_app.features.smooth.rule_form import RuleForm, rules_of_set, with_set_rules
 from hexmend_app.features.smooth.smoothing_panel import BreakpointForm, SmoothingPanel
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.run import worker
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
@@ -325,7 +325,7 @@ def test_the_form_is_hidden_for_a_mesh_without_sets(host):
     section = panel.rule_form.parentWidget().parentWidget()
     assert not section.isHidden()
     assert panel.rule_form.isEnabled()
-    host.session.document.replace(State.of(make("cube", size=27)), None)
+    host.session.document.replace(MeasuredMesh.of(make("cube", size=27)), None)
     feature.refresh()
     assert section.isHidden()
 
@@ -368,7 +368,7 @@ def test_another_mesh_keeps_the_rules_of_the_sets_that_it_has(host, mesh):
     session = host.session
     session.run_setup.set_rules(MotionRules(interfaces="slide", fix=("inlet", "low"), periodic=(("inlet", "outlet"),)))
     sets = {name: nodes for name, nodes in mesh.node_sets.items() if name != "outlet"}
-    session.document.replace(State.of(make("cube", size=64).replace(node_sets=sets)), None)
+    session.document.replace(MeasuredMesh.of(make("cube", size=64).replace(node_sets=sets)), None)
     assert session.run_setup.rules == MotionRules(interfaces="slide", fix=("inlet",))
 
 

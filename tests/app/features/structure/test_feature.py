@@ -12,7 +12,7 @@ from hexmend_app.picture.page import Page
 from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
 from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
 from hexmend_app.shell.start.program import application
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.structure import find_structure
 from tests.app.driving import heard_from, open_and_wait, tick
 from tests.app.features.structure.layers import count, open_and_know, pixels, press, press_key, texts
@@ -194,7 +194,7 @@ def begin_searching(window):
 
 @pytest.mark.slow
 def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
-    first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
+    first, last = MeasuredMesh.of(gallery.make("five-side", size=30_000)), MeasuredMesh.of(grid(2))
     window.session.document.replace(first, None)
     begin_searching(window)
     window.session.document.replace(last, None)

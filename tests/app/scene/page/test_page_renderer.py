@@ -16,7 +16,7 @@ from hexmend_app.scene.page.layout import Layout
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page
 from hexmend_app.scene.page.rasters import rasters
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History
 from tests.core.grids import grid, scrambled
 
@@ -164,7 +164,7 @@ def test_a_later_frame_of_a_film_equals_the_page_of_its_mesh(before):
     scene = Scene(camera=camera, page=Page(pixels=(480, 300), supersampling=1))
     first = scrambled(grid(3), 0.7)
     last = first.with_points(scrambled(grid(3), 0.2).points)
-    states, name = [State.of(mesh) for mesh in (first, last)], "iteration 1 of 1"
+    states, name = [MeasuredMesh.of(mesh) for mesh in (first, last)], "iteration 1 of 1"
     record = History().begin("run", states[0])
     record.rows = [{}, {}]
     _, drawn = pictures(record, (0, 1), states.__getitem__, scene, histogram=True, before=before)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.picture.appearance import Since
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration
 from tests.app.driving import smooth
 from tests.core.boundary.solids import slid
@@ -70,7 +70,7 @@ FREE = 12 * int(MESH.free.sum())  # bytes of an iteration
 
 def recorded(history, iterations=20, start=None):
     """Run and record local-sd; return the record, the run and its iterations."""
-    start = start or State.of(MESH)
+    start = start or MeasuredMesh.of(MESH)
     record = history.begin("Local steepest descent", start)
     run = iterate(start.mesh, "local-sd", StoppingCriteria(max_iterations=iterations, tolerance=0))
     history.add(record, run.start)
@@ -99,7 +99,7 @@ def test_every_iteration_is_recorded():
 def test_a_sliding_boundary_is_recorded_at_every_iteration():
     history = History()
     boundary = SLANTED.topology.boundary
-    record = history.begin("Mend", State.of(SLANTED))
+    record = history.begin("Mend", MeasuredMesh.of(SLANTED))
     run = iterate(SLANTED, METHODS["local-sd"](boundary="slide"), StoppingCriteria(max_iterations=5, tolerance=0))
     seen = [run.start, *run]
     for iteration in seen:
@@ -125,7 +125,7 @@ def test_the_limit_holds_for_runs_that_are_recorded_at_the_same_time():
 def test_a_result_is_exact():
     history = History()
     record, run, _ = recorded(history)
-    end = State.of(run.result().mesh)
+    end = MeasuredMesh.of(run.result().mesh)
     history.finish(record, RecordedIteration(record, 20), end, "Done.")
     assert history.state(RecordedIteration(record, 20), end.mesh) is end
     assert history.state(RecordedIteration(record, 0), MESH) is record.start
@@ -184,7 +184,7 @@ def test_a_run_without_iterations_is_removed(added):
     history = History()
     record, run, _ = recorded(history, added)
     result = RecordedIteration(record, added) if added else None
-    history.finish(record, result, State.of(run.result().mesh) if added else None, "Stopped.")
+    history.finish(record, result, MeasuredMesh.of(run.result().mesh) if added else None, "Stopped.")
     assert history.records == [record] * added
 
 
@@ -192,11 +192,11 @@ def test_a_run_without_iterations_is_removed(added):
 def test_tagging_and_pinning_do_not_change_the_iteration_of_a_state(number):
     history = History()
     record, run, _ = recorded(history)
-    history.finish(record, RecordedIteration(record, 20), State.of(run.result().mesh), "Done.")
+    history.finish(record, RecordedIteration(record, 20), MeasuredMesh.of(run.result().mesh), "Done.")
     shown = history.state(RecordedIteration(record, number), MESH)
     for change in ({"hex_sets": {"tagged": np.array([3])}}, {"pinned": MESH.topology.boundary.copy()}):
-        changed = State.of(shown.mesh.replace(**change))
+        changed = MeasuredMesh.of(shown.mesh.replace(**change))
         assert history.iteration_of(changed) == RecordedIteration(record, number)
         shown = changed  # the state before is deleted
     assert history.begin("Mend", shown).parent == RecordedIteration(record, number)
-    assert history.iteration_of(State.of(scrambled(grid(5), 0.3))) is None
+    assert history.iteration_of(MeasuredMesh.of(scrambled(grid(5), 0.3))) is None

@@ -10,7 +10,7 @@ from hexmend.quality import measure, summarise
 from hexmend_app.picture import Colours, Isolate
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import resolve
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
 from hexmend_app.state.mesh.snapshots import MAX_SNAPSHOTS, Snapshots
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
@@ -20,13 +20,13 @@ from tests.core.grids import grid, scrambled
 
 
 def moved(state, amount):
-    return State.of(state.mesh.with_points(state.mesh.points + amount * state.mesh.free[:, None]))
+    return MeasuredMesh.of(state.mesh.with_points(state.mesh.points + amount * state.mesh.free[:, None]))
 
 
 @pytest.fixture
 def document(qtbot):
     document = Document()
-    document.replace(State.of(scrambled(grid(3), 0.2)), Path("a.vtu"))
+    document.replace(MeasuredMesh.of(scrambled(grid(3), 0.2)), Path("a.vtu"))
     return document
 
 
@@ -85,7 +85,7 @@ def test_saving_marks_the_state_that_was_saved(document):
 def test_opening_a_mesh_discards_the_changes(document, qtbot):
     document.commit("smooth", moved(document.now, 0.01))
     with qtbot.waitSignal(document.mesh_replaced):
-        document.replace(State.of(grid(2)), None)
+        document.replace(MeasuredMesh.of(grid(2)), None)
     assert document.undo_title is None
     assert document.start is document.now
 
@@ -93,7 +93,7 @@ def test_opening_a_mesh_discards_the_changes(document, qtbot):
 def test_the_boundary_slides_on_that_of_the_opened_mesh(document):
     opened = document.now.mesh.points
     scaled = document.now.mesh.with_points(1.1 * opened)
-    document.commit("moved", State.of(scaled.replace(name="pinned since")))
+    document.commit("moved", MeasuredMesh.of(scaled.replace(name="pinned since")))
     np.testing.assert_array_equal(document.now.mesh.surface_points, opened)
     change = surface_change(document.now.mesh, document.now.mesh.with_points(opened))
     assert change.max == 0
@@ -149,7 +149,7 @@ def test_a_displacement_defines_groups_by_former_and_present_validity():
 
 def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):
     document = Document()
-    document.replace(State.of(MESH), None)
+    document.replace(MeasuredMesh.of(MESH), None)
     view = ViewModel(document)
     view.change(show={"quality": (0.5, 1.0), "peel": 2})
     view.dig(3)
@@ -165,7 +165,7 @@ def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):
 # Snapshots of the open mesh.
 
 
-STATE = State.of(scrambled(grid(3), 0.6))
+STATE = MeasuredMesh.of(scrambled(grid(3), 0.6))
 
 
 def test_snapshots_have_unique_slots_and_names(qtbot):

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from tests.core.grids import grid, scrambled
 
 
 @pytest.fixture
 def document(qtbot):
     document = Document()
-    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    document.replace(MeasuredMesh.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
     return document

@@ -10,7 +10,7 @@ import pytest
 from hexmend import Iteration, Laplacian, Smoother, Step, StoppingCriteria, gallery, iterate, measure, smooth
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase, RunController
@@ -121,7 +121,7 @@ def test_a_mesh_is_replaced_without_waiting_for_the_current_iteration(document, 
         smoothing.start(LocalSteepestDescent(), SLOW)
     with monkeypatch.context() as patch:
         patch.setattr(Task, "join", lambda *_: pytest.fail("the window waits for the run"))
-        document.replace(State.of(grid(2)), Path("b.vtu"))
+        document.replace(MeasuredMesh.of(grid(2)), Path("b.vtu"))
     assert smoothing.phase is Phase.IDLE
     wait_for_dropped()
     assert running() == ()
@@ -164,7 +164,7 @@ def test_stop_takes_effect_within_one_iteration(document, smoothing, qtbot):
 @pytest.fixture
 def overshooting(document, smoothing, qtbot):
     """Pause a run whose best iteration is not its last."""
-    document.replace(State.of(MESH), Path("bridge.vtu"))
+    document.replace(MeasuredMesh.of(MESH), Path("bridge.vtu"))
     smoothing.start(Laplacian(), SLOW, iterations=12)
     qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED))
     return smoothing
@@ -194,7 +194,7 @@ def test_stop_keeps_an_earlier_iteration_that_is_shown(document, overshooting, q
 
 def test_a_run_that_keeps_the_initial_mesh_changes_nothing(document, smoothing, qtbot):
     best = smooth(MESH, "laplacian", StoppingCriteria(max_iterations=12, tolerance=0)).mesh
-    document.replace(State.of(best), Path("a.vtu"))
+    document.replace(MeasuredMesh.of(best), Path("a.vtu"))
     with qtbot.waitSignal(smoothing.ended):
         smoothing.start(Laplacian(), StoppingCriteria(max_iterations=12, tolerance=0))
     assert smoothing.record.result == 0
@@ -295,7 +295,7 @@ def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtb
 
 
 def test_breakpoints_can_be_set_during_a_run(session, qtbot):
-    session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
+    session.document.replace(MeasuredMesh.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
     session.run.start(Laplacian(), StoppingCriteria(max_iterations=10**6, tolerance=0))
     qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])

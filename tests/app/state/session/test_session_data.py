@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.errors import FileError
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.session.state_part import StatePart
@@ -105,7 +105,7 @@ def test_data_of_a_session_are_restored_when_the_part_is_declared(session):
 
 def test_data_of_another_mesh_are_neither_restored_nor_saved(session):
     session.feature_states.restore({"test-counter": 7})
-    session.document.replace(State.of(grid(3)), None)
+    session.document.replace(MeasuredMesh.of(grid(3)), None)
     counter = Counter()
     session.feature_states.add(counter.part())
     assert counter.number == 0

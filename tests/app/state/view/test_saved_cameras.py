@@ -10,7 +10,7 @@ from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
 from hexmend_app.picture.named_cameras import cameras_of, merged
-from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.session import session_data
 from hexmend_app.state.view.saved_cameras import SavedCameras
@@ -72,7 +72,7 @@ def test_a_session_is_modified_if_its_cameras_differ_from_its_file(session, tmp_
 
 def test_saving_a_session_while_another_is_opened_does_not_modify_the_other(session, tmp_path, qtbot, monkeypatch):
     save_and_wait(session, tmp_path / "other.hexmend")
-    session.document.replace(State.of(grid(3)), tmp_path / "mesh.vtu")
+    session.document.replace(MeasuredMesh.of(grid(3)), tmp_path / "mesh.vtu")
     session.saved_cameras.add("front", X)
     opened, write = threading.Event(), session_data.write
 
@@ -112,7 +112,7 @@ def test_cameras_are_read_from_a_file_and_errors_name_the_camera(session, tmp_pa
 @pytest.fixture
 def document(qapp):
     document = Document()
-    document.replace(State.of(gallery.make("cube", size=8)), None)
+    document.replace(MeasuredMesh.of(gallery.make("cube", size=8)), None)
     return document
 
 
@@ -124,7 +124,7 @@ def views(document):
 @pytest.fixture
 def states(document):
     mesh = document.now.mesh
-    return [State.of(mesh.with_points(mesh.points * scale)) for scale in (1.0, 2.0, 3.0, 4.0)]
+    return [MeasuredMesh.of(mesh.with_points(mesh.points * scale)) for scale in (1.0, 2.0, 3.0, 4.0)]
 
 
 def test_there_are_at_most_three_side_views(views, states):
@@ -142,7 +142,7 @@ def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, docum
         views.show(str(k), state)
     views.close_view(2)
     assert [view.name for view in views.all] == ["0", "2"]
-    document.replace(State.of(gallery.make("cube", size=27)), None)
+    document.replace(MeasuredMesh.of(gallery.make("cube", size=27)), None)
     assert views.all == ()
 
 
