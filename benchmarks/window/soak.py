@@ -204,7 +204,7 @@ def _change_view(window: Window) -> None:
     for metric in ("scaled-jacobian", "q"):
         view.colour_by(metric)
         draw(window)
-    view.isolate((int(np.argmin(window.session.document.now.figures.q)),), rings=2)
+    view.isolate((int(np.argmin(window.session.document.now.quality.q)),), rings=2)
     draw(window)
     view.end_isolation()
 

@@ -63,7 +63,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     for k in range(_FRAMES):
         state = states[k % 3]
         start_time = perf_counter()
-        canvas.draw(Frame(state.mesh, state.figures, look=window.session.view.look))
+        canvas.draw(Frame(state.mesh, state.quality, look=window.session.view.look))
         draw(window)
         times.append(perf_counter() - start_time)
     for observer in observers:

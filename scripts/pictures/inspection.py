@@ -79,7 +79,7 @@ def compared(window: Window) -> None:
 def dark(window: Window) -> None:
     """Tags in the dark theme."""
     choose(ThemeChoice.DARK)
-    figures = window.session.document.now.figures
+    figures = window.session.document.now.quality
     window.session.commands.tag("inverted", np.flatnonzero(figures.inverted))
     window.session.commands.tag("flat", np.flatnonzero(~figures.inverted & (figures.q < 0.3)))
     window.action("tags").trigger()

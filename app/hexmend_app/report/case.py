@@ -68,7 +68,7 @@ class Version:
     name : str
         Name in captions and legends.
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
     summary : Summary
     row : Row, optional
         Outcome of the method; None for the original mesh.
@@ -80,7 +80,7 @@ class Version:
 
     name: str
     mesh: Mesh
-    figures: ElementQuality
+    quality: ElementQuality
     summary: Summary
     row: Row | None = None
     history: Sequence[Mapping[str, Any]] = ()
@@ -89,9 +89,9 @@ class Version:
     @classmethod
     def of(cls, name: str, mesh: Mesh, row: Row | None = None, result: Result | None = None) -> Version:
         """Measure a mesh, the result of a run if there is one."""
-        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
         outcome = (result.history, advise(result)) if result is not None else ()
-        return cls(name, mesh, figures, summarise(mesh, figures), row, *outcome)
+        return cls(name, mesh, quality, summarise(mesh, quality), row, *outcome)
 
     def record(self, norm: ObjectiveNorm = SQUARES) -> dict[str, Any]:
         """Return the measurements for a table; its objective has the p and offset of `norm`."""

@@ -127,7 +127,7 @@ def figure_scene(style: Style, scene: Scene, names: Sequence[str]) -> Scene:
 
 def draw_versions(scene: Scene, versions: Sequence[Version]) -> PageRenderer:
     """Draw a scene with a panel for each version."""
-    return draw_page(scene, [PageMesh(version.mesh, version.figures, name=version.name) for version in versions])
+    return draw_page(scene, [PageMesh(version.mesh, version.quality, name=version.name) for version in versions])
 
 
 def stationary(scene: Scene) -> Scene:
@@ -177,7 +177,7 @@ def _mesh_figure(case: Case, folder: Path, style: Style, part: str, scene: Scene
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
         renderer.write(path)
-    invalid = any(version.figures.n_invalid for version in versions)
+    invalid = any(version.quality.n_invalid for version in versions)
     text = f"{case.name}, {listed(names)}: {description}. {coloured_by(scene.colours, invalid)}"
     return Figure(part, text, tuple(paths))
 

@@ -82,8 +82,8 @@ def draw_chapter(
     ------
     Figure
     """
-    view = yield from _figures(case, style, interactive)
-    locked = [Locked.of(one.mesh, one.figures) for one in case.versions]
+    view = yield from _quality(case, style, interactive)
+    locked = [Locked.of(one.mesh, one.quality) for one in case.versions]
     sections = {
         "The mesh": view,
         "Quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
@@ -167,7 +167,7 @@ def _checks(case: Case) -> list[str]:
     head = ["solver", *(version.name for version in case.versions)]
     rows = []
     for solver in SOLVERS.values():
-        reports = [check_mesh(one.mesh, solver.name, one.figures) for one in case.versions]
+        reports = [check_mesh(one.mesh, solver.name, one.quality) for one in case.versions]
         rows.append([solver.title, *map(_solver_verdict, reports)])
     return [html.table(Table("", head, rows))]
 
@@ -178,7 +178,7 @@ def _solver_verdict(report: Report) -> str:
     return report.verdict if report.verdict == "passed" else f"{report.verdict} ({count_phrase(count, 'check')})"
 
 
-def _figures(case: Case, style: Style, interactive: bool) -> Generator[Figure, None, list[str]]:
+def _quality(case: Case, style: Style, interactive: bool) -> Generator[Figure, None, list[str]]:
     """Draw the pictures one by one, and return the interactive view of the mesh and the pictures as HTML."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
         plots = replace(style, width=_PLOT, formats=("svg",))
@@ -203,7 +203,7 @@ def _failed(row: Row) -> str:
 
 def _worst(case: Case, locked: Sequence[Locked]) -> list[str]:
     tables = [
-        worst_table(one.name, one.mesh, one.figures, hexes) for one, hexes in zip(case.versions, locked, strict=True)
+        worst_table(one.name, one.mesh, one.quality, hexes) for one, hexes in zip(case.versions, locked, strict=True)
     ]
     return [
         Markup('<div data-version="{}">{}</div>').format(number, html.table(table, words=1))

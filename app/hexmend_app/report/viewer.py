@@ -83,7 +83,7 @@ def packed(versions: Sequence[Version]) -> tuple[dict[str, Any], str]:
             {
                 "name": one.name,
                 "points": arrays.add((np.rint(places[k] / _FINEST) * _FINEST).astype(np.float32)),
-                "kinds": arrays.add(invalid_kinds(one.figures)),
+                "kinds": arrays.add(invalid_kinds(one.quality)),
                 "values": [arrays.add(metric[k]) for metric in values],
             }
             for k, one in enumerate(versions)
@@ -115,8 +115,8 @@ class _Arrays:
 
 def _metric(metric: Metric, versions: Sequence[Version]) -> tuple[dict[str, Any], list[np.ndarray]]:
     """Return the description of a metric for the page, and its values of each version, (m,) uint16."""
-    values = [metric.values(version.mesh, version.figures) for version in versions]
-    invalid = np.concatenate([version.figures.invalid for version in versions])
+    values = [metric.values(version.mesh, version.quality) for version in versions]
+    invalid = np.concatenate([version.quality.invalid for version in versions])
     colouring = resolve(Colours(metric.name), np.concatenate(values), invalid)
     declared = bool(np.isfinite(metric.full_range).all())
     low, high = metric.full_range if declared else (colouring.low, colouring.high)

@@ -32,9 +32,9 @@ class Locked:
     freed: np.ndarray
 
     @classmethod
-    def of(cls, mesh: Mesh, figures: ElementQuality) -> Locked:
+    def of(cls, mesh: Mesh, quality: ElementQuality) -> Locked:
         """Find the locked hexes."""
-        mask = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+        mask = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
         return cls(mask, freed_by_sliding(mesh, mask))
 
     def words(self) -> str:
@@ -51,30 +51,30 @@ class Locked:
         )
 
 
-def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) -> Table:
+def worst_table(name: str, mesh: Mesh, quality: ElementQuality, locked: Locked) -> Table:
     """Return a table of the worst hexes by q: number (from 0), q, scaled Jacobian, centre in mesh units, and state."""
-    order = rank_worst(figures.q, figures, MAX_WORST_HEXES)
+    order = rank_worst(quality.q, quality, MAX_WORST_HEXES)
     rows = [
         [
             format_count(int(hex)),
-            format_quality(figures.q[hex]),
-            format_quality(figures.scaled_jacobian[hex]),
+            format_quality(quality.q[hex]),
+            format_quality(quality.scaled_jacobian[hex]),
             ", ".join(f"{part:.5g}" for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
-            reason(mesh, figures, locked, int(hex)),
+            reason(mesh, quality, locked, int(hex)),
         ]
         for hex in order
     ]
     return Table(f"The worst hexes: {name}", ["hex", "q", "scaled Jacobian", "centre", "state"], rows)
 
 
-def reason(mesh: Mesh, figures: ElementQuality, locked: Locked, hex: int) -> str:
+def reason(mesh: Mesh, quality: ElementQuality, locked: Locked, hex: int) -> str:
     """Return the state of a hex (locked, inverted, invalid inside or valid) and its number of free nodes."""
     if locked.locked[hex]:
         return (
             f"locked {_corners(mesh, hex)}; {'sliding frees it' if locked.freed[hex] else 'sliding does not free it'}"
         )
     free = int(mesh.free[mesh.hexes[hex]].sum())
-    inverted, invalid = figures.inverted[hex], figures.invalid[hex]
+    inverted, invalid = quality.inverted[hex], quality.invalid[hex]
     state = "inverted, not locked" if inverted else "invalid inside" if invalid else "valid"
     return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
 

@@ -148,7 +148,7 @@ def test_a_click_shows_the_hex_and_its_values(fresh, case):
 
 
 def test_the_table_links_to_the_worst_hexes(fresh, case):
-    hex = int(rank_worst(case.initial.figures.q, case.initial.figures, 1)[0])
+    hex = int(rank_worst(case.initial.quality.q, case.initial.quality, 1)[0])
     before = fresh.canvas()
     fresh.page.locator('[data-version="0"] button').first.click()
     assert fresh.text("told").startswith(f"Hex {hex:,} – initial: q(H) ")
@@ -163,12 +163,12 @@ def test_it_counts_visible_hexes(fresh, case):
     first, mended = case.versions[0], case.versions[-1]
     fresh.control("method").select_option("mend")
     fresh.control("high").fill("0.7")
-    assert fresh.text("count") == f"{int((mended.figures.q <= 0.7).sum()):,} of {first.mesh.n_hexes:,} hexes"
+    assert fresh.text("count") == f"{int((mended.quality.q <= 0.7).sum()):,} of {first.mesh.n_hexes:,} hexes"
     fresh.control("between").fill("0")
-    apart = first.figures.invalid
-    assert fresh.text("count").startswith(f"{int((apart | (first.figures.q <= 0.7)).sum()):,} of")
+    apart = first.quality.invalid
+    assert fresh.text("count").startswith(f"{int((apart | (first.quality.q <= 0.7)).sum()):,} of")
     fresh.control("invalid").uncheck()
-    assert fresh.text("count").startswith(f"{int((~apart & (first.figures.q <= 0.7)).sum()):,} of")
+    assert fresh.text("count").startswith(f"{int((~apart & (first.quality.q <= 0.7)).sum()):,} of")
 
 
 @pytest.mark.slow
@@ -248,7 +248,7 @@ def test_a_value_out_of_range_is_shown_as_beyond_the_end_of_the_range(fresh, cas
     }"""
     beyond = set()
     for name, low, high, told in fresh.page.evaluate(said):
-        values = METRICS[name].of(case.initial.mesh.points, case.initial.mesh.hexes, case.initial.figures)
+        values = METRICS[name].of(case.initial.mesh.points, case.initial.mesh.hexes, case.initial.quality)
         for value, text in zip(values, told, strict=True):
             end = "≥" if value > high else "≤" if value < low else ""
             if end:

@@ -41,8 +41,8 @@ def test_hexes_and_positions_are_decoded(kept, case):
         way = points - version.mesh.points
         assert np.abs(way - way.mean(axis=0)).max() < 1e-6 * size
         kinds = array(blob, state["kinds"], "u1")
-        assert ((kinds == 1) == version.figures.inverted).all()
-        assert ((kinds > 0) == version.figures.invalid).all()
+        assert ((kinds == 1) == version.quality.inverted).all()
+        assert ((kinds > 0) == version.quality.invalid).all()
 
 
 @pytest.mark.parametrize("name", [*METRICS])
@@ -54,7 +54,7 @@ def test_values_are_decoded(kept, case, name):
     for state, version in zip(head["states"], case.versions, strict=True):
         steps = array(blob, state["values"][at], "<u2").astype(float)
         values = kind["from"] + (kind["to"] - kind["from"]) * steps / kind["steps"]
-        measured = METRICS[name].of(version.mesh.points, version.mesh.hexes, version.figures)
+        measured = METRICS[name].of(version.mesh.points, version.mesh.hexes, version.quality)
         wanted = np.clip(measured, kind["from"], kind["to"])
         assert np.abs(values - wanted).max() <= 0.51 * (kind["to"] - kind["from"]) / kind["steps"]
 

@@ -67,7 +67,7 @@ def test_a_feature_is_found_by_its_folder(with_folder, cube):
     window.refresh()
     window.action("volume").trigger()
     assert window.is_visible("volume")
-    volume = METRICS["volume"].of(cube.points, cube.hexes, window.session.document.now.figures).sum()
+    volume = METRICS["volume"].of(cube.points, cube.hexes, window.session.document.now.quality).sum()
     assert np.isclose(float(window.features["volume"].panel.text().split()[0]), volume)
 
 

@@ -76,7 +76,7 @@ def quality():
 def worst():
     widget = WorstList()
     widget.show()
-    widget.set_figures(MESH, FIGURES)
+    widget.set_quality(MESH, FIGURES)
     return widget
 
 

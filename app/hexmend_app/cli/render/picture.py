@@ -51,8 +51,8 @@ def _movement(scene: Scene, meshes: Sequence[PageMesh]) -> Displacement | None:
             "the scene shows the movement of a mesh: name the mesh before the movement first, then the mesh"
         )
     first = meshes[0]
-    reference = ReferenceState(first.mesh.points, first.figures, first.name)
-    return Displacement(first.mesh, reference, first.mesh.points, first.figures)
+    reference = ReferenceState(first.mesh.points, first.quality, first.name)
+    return Displacement(first.mesh, reference, first.mesh.points, first.quality)
 
 
 def _scene(args: argparse.Namespace) -> Scene:

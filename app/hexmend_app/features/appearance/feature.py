@@ -92,7 +92,7 @@ class FeatureAppearance(Feature):
         original = session.document.start.mesh.points if look.structure.is_on("original") else None
         if self._seen.changed("frame", now, movement, look, original, *kinds):
             live = session.run.phase is Phase.RUNNING and session.run.following
-            self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, *kinds), live)
+            self.canvas.draw(Frame(now.mesh, now.quality, movement, look, original, *kinds), live)
         if self._seen.changed("handles", look.cut, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.changed("phase", session.run.phase) and session.run.phase is not Phase.RUNNING:
@@ -103,7 +103,7 @@ class FeatureAppearance(Feature):
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
-        self._view.isolate(hexes_of_group(kind, now.mesh, now.figures, self._movement))
+        self._view.isolate(hexes_of_group(kind, now.mesh, now.quality, self._movement))
 
     @property
     def _movement(self) -> Displacement | None:

@@ -239,5 +239,5 @@ def _key(record: RunRecord) -> str:
 
 def _mesh_values(state: MeasuredMesh, norm: ObjectiveNorm) -> dict[str, Any]:
     """Return the values of a mesh, with the objective in the norm of the table."""
-    norm_values = {"objective": objective(state.figures, *norm), "objective_formula": norm.formula}
+    norm_values = {"objective": objective(state.quality, *norm), "objective_formula": norm.formula}
     return state.summary.to_dict() | norm_values

@@ -151,7 +151,7 @@ class FeatureCut(Feature):
         document = self.session.document
         filters = None if self.canvas is None else self.canvas.viewport.filters
         if filters is not None and document.is_open and filters.matches(document.now.mesh):
-            frame = Frame(document.now.mesh, document.now.figures, look=self._view.look)
+            frame = Frame(document.now.mesh, document.now.quality, look=self._view.look)
             self._view.store_remaining_hexes(filters.cut_left(frame))
 
     def _propose(self, choices: CutPanelSettings) -> None:

@@ -165,7 +165,7 @@ class FeatureHexInspector(Feature):
             return
         now, selection = self._document.now, self._selection
         if self._seen.changed("figures", now):
-            self.worst_list.set_figures(now.mesh, now.figures)
+            self.worst_list.set_quality(now.mesh, now.quality)
         self.worst_list.set_selected(selection.hex)
         corners, editable = self.panel.corners_box.isChecked(), self.session.editable
         classes = self.session.boundary_classifier.result

@@ -57,7 +57,7 @@ class WorstList(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._mesh: Mesh | None = None
-        self._figures: ElementQuality | None = None
+        self._quality: ElementQuality | None = None
         self._selected: int | None = None
         self._visited: int | None = None  # the hex from which next and previous go on
         self._stale = False
@@ -108,11 +108,11 @@ class WorstList(QWidget):
 
     # Contents
 
-    def set_figures(self, mesh: Mesh, figures: ElementQuality) -> None:
+    def set_quality(self, mesh: Mesh, quality: ElementQuality) -> None:
         """Show the worst hexes of a mesh; while the list is hidden, it is filled later, when needed."""
         if self._mesh is None or mesh.points is not self._mesh.points:  # pins and tags do not change the order
             self._begin_again()
-        self._mesh, self._figures = mesh, figures
+        self._mesh, self._quality = mesh, quality
         self._stale = not self.isVisible()
         if not self._stale:
             self._refresh()
@@ -177,17 +177,17 @@ class WorstList(QWidget):
         self._visited = None
 
     def _refresh(self) -> None:
-        mesh, figures = self._mesh, self._figures
+        mesh, quality = self._mesh, self._quality
         self.save_button.setEnabled(mesh is not None)
         if mesh is None:
             self._text.setText(tr("No mesh is open."))
             return
         metric = METRICS[self.chosen_metric]
-        worst = WorstHexes.of(mesh, figures, metric.name)
+        worst = WorstHexes.of(mesh, quality, metric.name)
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
         self._model.fill(worst, tr(metric.title))
-        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted, "invalid": figures.n_invalid}
+        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": quality.n_inverted, "invalid": quality.n_invalid}
         if worst.hexes.size == mesh.n_hexes:
             text = tr("{total}, {inverted:,} inverted, {invalid:,} invalid.", **counts)
         else:

@@ -102,7 +102,7 @@ class FeatureHistogram(Feature):
         if self._seen.changed("all", self.metric, start, now, snapshots, colouring):
             self._kept = {one.slot: self._distribution_of(one) for one in snapshots}
             kept = [(one.slot, one.name, self._kept[one.slot][2]) for one in snapshots]
-            inside = now.figures.n_invalid - now.figures.n_inverted
+            inside = now.quality.n_invalid - now.quality.n_inverted
             self.panel.show_distributions(self._initial, self._current, kept, inside, colouring)
 
     def _colouring(self) -> Colouring | None:
@@ -113,7 +113,7 @@ class FeatureHistogram(Feature):
         return colouring
 
     def _distribution(self, state: MeasuredMesh) -> Distribution:
-        return Distribution.of(metric_values(self.metric, state.mesh, state.figures), state.figures.inverted)
+        return Distribution.of(metric_values(self.metric, state.mesh, state.quality), state.quality.inverted)
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -129,7 +129,7 @@ class FeatureHistogram(Feature):
 
     def _isolate_inverted(self) -> None:
         now = self._document.now
-        self._view.isolate(hexes_of_group("inverted", now.mesh, now.figures))
+        self._view.isolate(hexes_of_group("inverted", now.mesh, now.quality))
 
     # Snapshots
 

@@ -85,7 +85,7 @@ class FeatureMovement(Feature):
 
     def _show_newly_invalid(self) -> None:
         now = self._document.now
-        self._view.isolate(hexes_of_group("newly invalid", now.mesh, now.figures, self._displacement))
+        self._view.isolate(hexes_of_group("newly invalid", now.mesh, now.quality, self._displacement))
 
 
 class MovementPanel(QWidget):

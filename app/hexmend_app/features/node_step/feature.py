@@ -201,7 +201,7 @@ class FeatureNodeStep(Feature):
             self._node_sweep.finish(smoother)
         else:
             self._node_sweep.advance(smoother, 10 if amount == "ten" else 1)
-        step, jacobian, h = self._node_sweep.last, self._document.now.figures.scaled_jacobian, self._selection.hex
+        step, jacobian, h = self._node_sweep.last, self._document.now.quality.scaled_jacobian, self._selection.hex
         if h not in step.hexes:
             h = int(step.hexes[jacobian[step.hexes].argmin()])
         self._selection.choose(h, step.node)
@@ -283,7 +283,7 @@ def worst_free_node(state: MeasuredMesh, hexes: np.ndarray) -> tuple[int, int] |
         The first hex with a free node, and its free node with the lowest sum of scaled Jacobians of the adjacent
         hexes; None if no node is free.
     """
-    mesh, jacobian = state.mesh, state.figures.scaled_jacobian
+    mesh, jacobian = state.mesh, state.quality.scaled_jacobian
     with_free = hexes[mesh.free[mesh.hexes[hexes]].any(axis=1)]
     if not with_free.size:
         return None

@@ -44,8 +44,8 @@ def show_in(plotter: pv.BasePlotter, view: Viewport, up: str) -> None:
         grid.point_data["beyond"] = np.min(beyond, axis=0) if cut.notch else np.max(beyond, axis=0)
         grid = grid.clip_scalar(scalars="beyond")
     hexes = grid.cell_data["vtkOriginalCellIds"]
-    grid.cell_data["q"] = view.frame.figures.q[hexes]
-    grid.cell_data["scaled-jacobian"] = view.frame.figures.scaled_jacobian[hexes]
+    grid.cell_data["q"] = view.frame.quality.q[hexes]
+    grid.cell_data["scaled-jacobian"] = view.frame.quality.scaled_jacobian[hexes]
     colouring = colours.colouring
     if view.frame.look.colours.neutral:
         colouring = replace(colouring, table=np.full_like(colouring.table, OUTSIDE))

@@ -90,7 +90,7 @@ class FeatureQuality(Feature):
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
-        self.session.view.isolate(hexes_of_group(kind, now.mesh, now.figures))
+        self.session.view.isolate(hexes_of_group(kind, now.mesh, now.quality))
 
 
 class QualityBar(QFrame):

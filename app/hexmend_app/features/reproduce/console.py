@@ -79,7 +79,7 @@ class ConsolePanel(QWidget):
         self.line.clear()
         now = self._session.document.now
         mesh = None if now is None else now.mesh
-        self._python.locals.update(mesh=mesh, quality=None if now is None else now.figures)
+        self._python.locals.update(mesh=mesh, quality=None if now is None else now.quality)
         self._task = Task("console", lambda _: _run(self._python, source, mesh), yields=True)
         self._task.ended.connect(self._finish)
         self.line.setEnabled(False)

@@ -74,7 +74,7 @@ class FeatureSideViews(Feature):
         if self.canvas is None or not document.is_open:
             return
         if self._seen.changed("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
-            self.canvas.show_side_by_side([(view.state.mesh, view.state.figures) for view in views.all], views.wipe)
+            self.canvas.show_side_by_side([(view.state.mesh, view.state.quality) for view in views.all], views.wipe)
             self._seen.changed("wipe", views.wipe)
         elif self._seen.changed("wipe", views.wipe) and views.wipe is not None:
             self.canvas.move_wipe(views.wipe)

@@ -82,7 +82,7 @@ class FeatureStructure(Feature):
         visible = self.panel.isVisible() or self._view.look.structure.is_on("kinds")
         if visible and smoother is not None and not session.run.busy:
             session.boundary_classifier.ask(
-                now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE)
+                now.mesh, now.quality, smoother.values().get("feature_angle", FEATURE_ANGLE)
             )
         classes = session.boundary_classifier.of(now.mesh)
         error = session.boundary_classifier.error

@@ -83,8 +83,8 @@ class FeatureTags(Feature):
                 Tag(
                     name,
                     len(members),
-                    int(np.count_nonzero(now.figures.inverted[members])),
-                    float(now.figures.q[members].min()) if len(members) else None,
+                    int(np.count_nonzero(now.quality.inverted[members])),
+                    float(now.quality.q[members].min()) if len(members) else None,
                 )
                 for name, members in now.mesh.hex_sets.items()
             ])  # fmt: skip

@@ -34,12 +34,12 @@ class HexColours:
     def measure(self, frame: Frame) -> None:
         """Compute the values and the colouring of a frame."""
         self._frame = frame
-        mesh, figures, colours, movement = frame.mesh, frame.figures, frame.look.colours, frame.movement
-        self.kinds, title, names = invalid_kinds(figures), "", tuple[str, ...]()
+        mesh, quality, colours, movement = frame.mesh, frame.quality, frame.look.colours, frame.movement
+        self.kinds, title, names = invalid_kinds(quality), "", tuple[str, ...]()
         if colours.metric == MATERIAL.name:
             self.values, names = material_values(mesh), material_names(mesh)
         elif colours.metric not in DISPLACEMENT_QUANTITIES:
-            self.values = metric_values(colours.metric, mesh, figures)
+            self.values = metric_values(colours.metric, mesh, quality)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
         else:
@@ -47,7 +47,7 @@ class HexColours:
             if colours.metric == "q-change":
                 self.kinds = movement.validity_changes
             title = movement.title(colours.metric)
-        self.colouring = resolve(colours, self.values, figures.invalid, self._ends_of_views, title, names)
+        self.colouring = resolve(colours, self.values, quality.invalid, self._ends_of_views, title, names)
 
     def extend_range(self, ends: tuple[float, float] | None) -> bool:
         """Extend a fitted range to that of all views; return True if it changes."""
@@ -74,7 +74,7 @@ class HexColours:
     @property
     def ends(self) -> tuple[float, float]:
         """Fitted range of the values of this view."""
-        return fitted(self.values, self._frame.figures.invalid)
+        return fitted(self.values, self._frame.quality.invalid)
 
     @property
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:

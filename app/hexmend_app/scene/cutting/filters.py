@@ -39,7 +39,7 @@ class Filters:
         A cut by whole hexes is evaluated when its planes change, not when nodes move, so that hexes do not flicker; a
         result stored in the look takes precedence.
         """
-        points, figures, topology, m = frame.mesh.points, frame.figures, self._mesh.topology, self._mesh.n_hexes
+        points, figures, topology, m = frame.mesh.points, frame.quality, self._mesh.topology, self._mesh.n_hexes
         cut, show, quality = frame.look.cut, frame.look.show, frame.look.show.by_quality
         filters = (
             self._mask(

@@ -70,13 +70,13 @@ def pictures(
     with ExitStack() as stack:
         for number in numbers:
             place, now = _place(record, number), state(number)
-            mesh, figures = now.mesh, now.figures
+            mesh, quality = now.mesh, now.quality
             if movement is not None:
-                current = ReferenceState(mesh.points, figures, "the last frame")
+                current = ReferenceState(mesh.points, quality, "the last frame")
                 start = last if scene.movement.since is Since.ITERATION else movement.before
-                movement = Displacement(movement.mesh, start or current, mesh.points, figures)
+                movement = Displacement(movement.mesh, start or current, mesh.points, quality)
                 last = current
-            shown = PageMesh(mesh, figures, movement, name=place if before else f"{record.title}, {place}")
+            shown = PageMesh(mesh, quality, movement, name=place if before else f"{record.title}, {place}")
             meshes = [*(meshes[:1] or [replace(shown, name="Before")]), shown] if before else [shown]
             panels = tuple(PicturePanel(mesh=at, caption=one.name) for at, one in enumerate(meshes, 1))
             layout = Layout.of(replace(scene, panels=panels), meshes, figures=True, histogram=histogram)

@@ -21,7 +21,7 @@ class Frame:
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the mesh.
     movement : Displacement, optional
         Movement for colours and arrows; None if the look shows none.
@@ -36,7 +36,7 @@ class Frame:
     """
 
     mesh: Mesh
-    figures: ElementQuality
+    quality: ElementQuality
     movement: Displacement | None = None
     look: Look = field(default_factory=Look)
     original: np.ndarray | None = None
@@ -58,17 +58,17 @@ class Frame:
         """Return a frame of this mesh with the look and the reference state of movement of the first view's frame."""
         movement = first.movement
         if not same_hexes(first.mesh, self.mesh):
-            return Frame(self.mesh, self.figures, None, first.look)
+            return Frame(self.mesh, self.quality, None, first.look)
         if movement is not None:
             known, reference = self.movement, movement.before
             unchanged = known is not None and (
                 known.before.points is reference.points and known.before.name == reference.name
             )
-            movement = known if unchanged else movement.updated(self.mesh.points, self.figures)
+            movement = known if unchanged else movement.updated(self.mesh.points, self.quality)
         kinds = first.kinds
         if self.mesh.points is not first.mesh.points and first.original_kinds is not None:
             kinds = first.original_kinds
-        return Frame(self.mesh, self.figures, movement, first.look, first.original, kinds, first.original_kinds)
+        return Frame(self.mesh, self.quality, movement, first.look, first.original, kinds, first.original_kinds)
 
 
 def same_hexes(mesh: Mesh, other: Mesh) -> bool:

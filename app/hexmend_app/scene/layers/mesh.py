@@ -112,7 +112,7 @@ class MeshLayer:
             surface.show_proxy(None)
             surface.divide_edges(self._divisions)
         # Back faces take a third of the frame time, but invalid hexes may turn them towards the viewer.
-        invalid = frame.figures.n_invalid > 0
+        invalid = frame.quality.n_invalid > 0
         self.skin.actor.GetProperty().SetBackfaceCulling(not invalid)
         self._replace(frame, keep, colours)
         for surface, outline in self._outlines:

@@ -30,4 +30,4 @@ class PageMesh(Frame):
     @property
     def text(self) -> str:
         """Figures of the caption: smallest q and number of invalid hexes."""
-        return f"q min {self.figures.q.min():.4f}, {invalid_counts(self.figures.n_inverted, self.figures.n_invalid)}"
+        return f"q min {self.quality.q.min():.4f}, {invalid_counts(self.quality.n_inverted, self.quality.n_invalid)}"

@@ -163,7 +163,7 @@ class PageViews:
         # Hex numbers apply to the first mesh only.
         show = replace(scene.show, marked=frozenset())
         scene = replace(scene, cut=replace(scene.cut, hexes=""), show=show)
-        return Frame(other.mesh, other.figures, look=scene.look(other.mesh))
+        return Frame(other.mesh, other.quality, look=scene.look(other.mesh))
 
     def _share_colour_range(self, look: Look) -> None:
         """Extend a fitted colour range to the values of all views."""

@@ -109,7 +109,7 @@ class Panes:
         aspect, fitted = self._arrangement.aspect, self.camera_controller.fitted
         previous = self._others
         known = {id(mesh): view for mesh, view in previous}
-        self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
+        self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, quality)) for mesh, quality in others]
         for _, view in previous:
             if view not in self.all:
                 view.close()
@@ -119,11 +119,11 @@ class Panes:
         if fitted and abs(self._arrangement.aspect - aspect) > 1e-6:
             self.camera_controller.fit()
 
-    def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
+    def _open(self, mesh: Mesh, quality: ElementQuality) -> Viewport:
         pane = Pane(self._window, self.first.camera)
         view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure, True)
         view.set_dark(self._dark)
-        view.draw(Frame(mesh, figures).matching(self.first.frame))
+        view.draw(Frame(mesh, quality).matching(self.first.frame))
         self._observe(view)
         return view
 

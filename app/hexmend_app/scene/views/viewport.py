@@ -109,7 +109,7 @@ class Viewport:
 
     def _draw(self, frame: Frame, new_mesh: bool) -> None:
         last, self.frame = self.frame, frame
-        moved = new_mesh or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
+        moved = new_mesh or frame.mesh.points is not last.mesh.points or frame.quality is not last.quality
         restyled = new_mesh or frame.look != last.look
         recoloured = moved or frame.movement is not last.movement or frame.look.colours != last.look.colours
         if new_mesh:

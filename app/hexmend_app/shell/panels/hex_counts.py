@@ -51,8 +51,8 @@ def _selected_text(session: Session) -> str:
     selected, now = session.selection.hex, session.document.now
     if selected is None:
         return ""
-    if now.figures.inverted[selected]:
+    if now.quality.inverted[selected]:
         return tr("hex {hex}: inverted", hex=selected)
-    if now.figures.invalid[selected]:
+    if now.quality.invalid[selected]:
         return tr("hex {hex}: invalid", hex=selected)
-    return tr("hex {hex}: q {q:.3f}", hex=selected, q=now.figures.q[selected])
+    return tr("hex {hex}: q {q:.3f}", hex=selected, q=now.quality.q[selected])

@@ -33,13 +33,13 @@ class ComparisonBases:
         key = (now, since, shown)
         if self._last is None or self._last[0] != key:
             reference = self._reference_state(*self._find(since, shown))
-            self._last = key, Displacement(self._document.start.mesh, reference, now.mesh.points, now.figures)
+            self._last = key, Displacement(self._document.start.mesh, reference, now.mesh.points, now.quality)
         return self._last[1]
 
     def _reference_state(self, state: MeasuredMesh, name: str) -> ReferenceState:
         """Return the reference of a state; the last is cached, as it caches data of its surface."""
         if self._reference is None or self._reference[0] is not state or self._reference[1].name != name:
-            self._reference = state, ReferenceState(state.mesh.points, state.figures, name)
+            self._reference = state, ReferenceState(state.mesh.points, state.quality, name)
         return self._reference[1]
 
     def _find(self, since: Since, shown: history.RecordedIteration | None) -> tuple[MeasuredMesh, str]:

@@ -26,21 +26,21 @@ class MeasuredMesh:
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of each hex.
     summary : Summary
         Statistics of the quality.
     """
 
     mesh: Mesh
-    figures: ElementQuality
+    quality: ElementQuality
     summary: Summary
 
     @classmethod
-    def of(cls, mesh: Mesh, figures: ElementQuality | None = None) -> MeasuredMesh:
+    def of(cls, mesh: Mesh, quality: ElementQuality | None = None) -> MeasuredMesh:
         """Measure a mesh, whose quality may be known already."""
-        figures = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if figures is None else figures
-        return cls(mesh, figures, summarise(mesh, figures))
+        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
+        return cls(mesh, quality, summarise(mesh, quality))
 
 
 @dataclass(frozen=True, eq=False)
@@ -274,7 +274,7 @@ class Document(QObject):
             mesh = self.now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:  # at a time of a case, whose boundary had moved
                 mesh = mesh.moving_from(start.mesh.surface_points)
-            state = MeasuredMesh.of(mesh, start.figures)
+            state = MeasuredMesh.of(mesh, start.quality)
             self.commit("reset", state, command=Command("move", (self.now, start)))
 
     @property

@@ -25,7 +25,7 @@ def invalid_counts(inverted: int, invalid: int) -> str:
 
 
 def hexes_of_group(
-    group: str, mesh: Mesh, figures: ElementQuality, displacement: Displacement | None = None
+    group: str, mesh: Mesh, quality: ElementQuality, displacement: Displacement | None = None
 ) -> np.ndarray:
     """Return the hexes of a group, (k,) int64.
 
@@ -34,7 +34,7 @@ def hexes_of_group(
     group : str
         One of `GROUPS`.
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the mesh.
     displacement : Displacement, optional
         Defines the newly invalid, still invalid and mended hexes; without it these groups are empty.
@@ -47,11 +47,11 @@ def hexes_of_group(
     if group not in GROUPS:
         raise KeyError(f"there is no group of hexes {group!r}: known are {', '.join(GROUPS)}")
     if group in ("inverted", "invalid"):
-        return np.flatnonzero(getattr(figures, group))
+        return np.flatnonzero(getattr(quality, group))
     if group == "invalid inside":
-        return np.flatnonzero(figures.invalid & ~figures.inverted)
+        return np.flatnonzero(quality.invalid & ~quality.inverted)
     if group == "locked":
-        return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
+        return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))
     if displacement is None:
         return np.empty(0, np.int64)
     return np.flatnonzero(displacement.validity_changes == _OF_DISPLACEMENT[group])

@@ -16,8 +16,8 @@ _MAX_CACHED_METRICS = 3
 CACHE: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
 
 
-def metric_values(metric: str, mesh: Mesh, figures: ElementQuality) -> np.ndarray:
-    """Return the value of each hex, (m,) float64, not to be modified; cached as long as `figures` lives.
+def metric_values(metric: str, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Return the value of each hex, (m,) float64, not to be modified; cached as long as `quality` lives.
 
     Workers call this in advance to relieve the window.
 
@@ -26,13 +26,13 @@ def metric_values(metric: str, mesh: Mesh, figures: ElementQuality) -> np.ndarra
     metric : str
         Name in `hexmend.quality.METRICS`.
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of its hexes.
     """
-    cached = CACHE.setdefault(figures, {})
+    cached = CACHE.setdefault(quality, {})
     values = cached.get(metric)
     if values is None:
-        values = METRICS[metric].values(mesh, figures)
+        values = METRICS[metric].values(mesh, quality)
         while len(cached) >= _MAX_CACHED_METRICS:
             cached.pop(next(iter(cached)), None)
         cached[metric] = values

@@ -75,7 +75,7 @@ class Selection(QObject):
     def worst_hexes(self) -> np.ndarray:
         """Return the worst hexes of the mesh shown, (k,) int64, worst first; a mesh is open."""
         now = self._document.now
-        return WorstHexes.of(now.mesh, now.figures, self.worst_metric).hexes
+        return WorstHexes.of(now.mesh, now.quality, self.worst_metric).hexes
 
     def to_data(self) -> SelectionData:
         """Return the data for a session file."""

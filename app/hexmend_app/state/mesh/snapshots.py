@@ -78,7 +78,7 @@ class Snapshots(QObject):
             names = {snapshot.name for snapshot in self.all}
             candidates = (name, *(f"{name} ({k})" for k in range(2, MAX_SNAPSHOTS + 1)))
             name = next(candidate for candidate in candidates if candidate not in names)
-            self._set(*self.all, Snapshot(slot, name, state.mesh.points, state.figures.inverted))
+            self._set(*self.all, Snapshot(slot, name, state.mesh.points, state.quality.inverted))
 
     def remove(self, slot: int) -> None:
         """Remove a snapshot."""

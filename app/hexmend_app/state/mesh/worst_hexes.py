@@ -39,13 +39,13 @@ class WorstHexes:
     ids: np.ndarray | None = None
 
     @classmethod
-    def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> WorstHexes:
+    def of(cls, mesh: Mesh, quality: ElementQuality, metric: str) -> WorstHexes:
         """Find the worst hexes of a mesh by the metric with this name in `METRICS`."""
-        values = metric_values(metric, mesh, figures)
-        worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
-        inverted = figures.inverted[worst]
+        values = metric_values(metric, mesh, quality)
+        worst = rank_worst(values, quality, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
+        inverted = quality.inverted[worst]
         locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
-        states = np.select([locked, inverted, figures.invalid[worst]], ["locked", "inverted", "inside"], "").tolist()
+        states = np.select([locked, inverted, quality.invalid[worst]], ["locked", "inverted", "inside"], "").tolist()
         ids = hex_ids(mesh)
         of_file = None if ids is None else ids[worst]
-        return cls(worst, values[worst], figures.scaled_jacobian[worst], states, of_file)
+        return cls(worst, values[worst], quality.scaled_jacobian[worst], states, of_file)

@@ -100,7 +100,7 @@ class Timeline(QObject):
             mesh = now.mesh.with_points(start.mesh.points)
             if mesh.surface_points is not start.mesh.surface_points:
                 mesh = mesh.moving_from(start.mesh.surface_points)
-            state = MeasuredMesh.of(mesh, start.figures)
+            state = MeasuredMesh.of(mesh, start.quality)
         if now.mesh.points is not start.mesh.points:
             self._document.preview(state)
 

@@ -135,7 +135,7 @@ class Commands(QObject):
             mesh = now.mesh.with_points(state.mesh.points)
             recipe = comparison.recipe_of(state)
             command = None if recipe is None else Command("smooth", (comparison.initial, now), recipe=recipe)
-            self.document.commit(title, MeasuredMesh.of(mesh, state.figures), command=command)
+            self.document.commit(title, MeasuredMesh.of(mesh, state.quality), command=command)
 
     def replace_mesh(self, title: str, state: MeasuredMesh) -> bool:
         """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
@@ -192,9 +192,9 @@ class Commands(QObject):
         if self._begin_edit():
             now = self.document.now
             mesh = change(now.mesh, *values)
-            summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
+            summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.quality)
             command = Command(change.__name__, (now,), values)
-            self.document.commit(title, MeasuredMesh(mesh, now.figures, summary), command=command)
+            self.document.commit(title, MeasuredMesh(mesh, now.quality, summary), command=command)
 
     def repair(self, kinds: Sequence[str] = ()) -> None:
         """Start repairing some kinds of problem, or all, if the mesh is editable; see `Session.repairer`."""

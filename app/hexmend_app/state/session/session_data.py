@@ -145,7 +145,7 @@ class _States:
     def __init__(self, meshes: tuple[Mesh, ...]):
         self._meshes = meshes
         self._states: dict[int, MeasuredMesh] = {}
-        self._figures: dict[tuple[int, int], Any] = {}
+        self._quality: dict[tuple[int, int], Any] = {}
 
     def __call__(self, number: Any) -> MeasuredMesh:
         if type(number) is not int or not 0 <= number < len(self._meshes):
@@ -153,9 +153,9 @@ class _States:
         if number not in self._states:
             mesh = self._meshes[number]
             key = id(mesh.points), id(mesh.hexes)
-            if key not in self._figures:
-                self._figures[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-            self._states[number] = MeasuredMesh.of(mesh, self._figures[key])
+            if key not in self._quality:
+                self._quality[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+            self._states[number] = MeasuredMesh.of(mesh, self._quality[key])
         return self._states[number]
 
 

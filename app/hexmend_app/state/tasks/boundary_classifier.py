@@ -87,18 +87,18 @@ def _with_left(kinds: np.ndarray, left: Departures) -> np.ndarray:
     return kinds
 
 
-def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: FeatureAngle) -> BoundaryClasses:
+def classify_boundary(mesh: Mesh, quality: ElementQuality, degrees: FeatureAngle) -> BoundaryClasses:
     """Classify the nodes of a boundary, and count its locked hexes.
 
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the mesh.
     degrees : float or "auto"
         See `node_classes`.
     """
-    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
     freed = freed_by_sliding(mesh, locked, degrees)
     left = departures_from_surface(mesh, degrees)
     counts = int(np.count_nonzero(locked)), int(np.count_nonzero(freed))

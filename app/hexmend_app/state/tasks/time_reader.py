@@ -160,5 +160,5 @@ def case_times(path: Path, state: MeasuredMesh) -> Iterator[Iteration | FileErro
 def begin_times(history: History, state: MeasuredMesh) -> RunRecord:
     """Add the record of a case to the history, with the mesh in constant as number 0, and return it."""
     record = history.begin(TITLE, state)
-    history.add(record, Iteration(0, state.mesh.points, state.figures, 0.0, 0.0, {TIME: CONSTANT}))
+    history.add(record, Iteration(0, state.mesh.points, state.quality, 0.0, 0.0, {TIME: CONSTANT}))
     return record

@@ -214,7 +214,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, front_panel):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(lambda: window.session.document.now is not start)
     window.refresh()
-    now = window.session.document.now.figures
+    now = window.session.document.now.quality
     values = now.scaled_jacobian[~now.inverted]
     assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
     press(named(front_panel, QAbstractButton, "Range: Pinned"))

@@ -82,7 +82,7 @@ def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
 
 def test_everything_combines(window):
     view = window.session.view
-    mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
+    mesh, figures = window.session.document.now.mesh, window.session.document.now.quality
     clip = Cut.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
     patch = mesh.topology.hexes_around([444], 3)
     view.isolate(np.flatnonzero(patch), 1)  # restores hexes that peeling would hide

@@ -143,7 +143,7 @@ FIGURES = measure(MESH.points, MESH.hexes)
 @pytest.fixture
 def worst_list(shown):
     widget = shown(WorstList(), 600, 300)
-    widget.set_figures(MESH, FIGURES)
+    widget.set_quality(MESH, FIGURES)
     actions = QAction("Previous", widget), QAction("Next", widget)
     for action, handle in zip(actions, (widget.previous, widget.next), strict=True):
         action.triggered.connect(handle)
@@ -180,7 +180,7 @@ def test_the_numbers_of_the_file_have_a_column_where_it_has_some(worst_list, tmp
     table = worst_list.findChild(QTableView)
     assert table.isColumnHidden(ID)
     mesh = MESH.replace(hex_data={"id": np.arange(MESH.n_hexes)[::-1] + 7})
-    worst_list.set_figures(mesh, FIGURES)
+    worst_list.set_quality(mesh, FIGURES)
     assert not table.isColumnHidden(ID)
     worst = int(worst_list.hexes[0])
     assert table.model().index(0, ID).data() == str(MESH.n_hexes - 1 - worst + 7)
@@ -192,7 +192,7 @@ def test_the_numbers_of_the_file_have_a_column_where_it_has_some(worst_list, tmp
 def test_invalid_hexes_are_listed_before_valid_ones_of_lower_quality(worst_list):
     mesh = scrambled(grid(6), 0.5, 2)
     figures = measure(mesh.points, mesh.hexes)
-    worst_list.set_figures(mesh, figures)
+    worst_list.set_quality(mesh, figures)
     hexes, inside = worst_list.hexes, figures.invalid & ~figures.inverted
     assert inside.any()
     assert figures.q[figures.invalid].max() > figures.q[~figures.invalid].min()
@@ -221,7 +221,7 @@ def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
     hex = int(worst_list.hexes[5])
     worst_list.set_selected(hex)
     better = scrambled(grid(11), 0.5, 4)
-    worst_list.set_figures(better, measure(better.points, better.hexes))
+    worst_list.set_quality(better, measure(better.points, better.hexes))
     row = worst_list.findChild(QTableView).currentIndex().row()
     listed = worst_list.hexes.tolist()
     assert (listed[row] == hex) if hex in listed else row == -1

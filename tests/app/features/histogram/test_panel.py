@@ -269,8 +269,8 @@ def test_snapshots_are_named_after_the_iteration_and_shown_for_every_metric(wind
     names = ["Local steepest descent 1", "Local steepest descent (2) 1"]
     assert [one.name for one in window.session.snapshots.all] == names
     for name, state in zip(names, states, strict=True):
-        values = METRICS["condition"].of(state.mesh.points, state.mesh.hexes, state.figures)
-        np.testing.assert_array_equal(drawn[name].values, Distribution.of(values, state.figures.inverted).values)
+        values = METRICS["condition"].of(state.mesh.points, state.mesh.hexes, state.quality)
+        np.testing.assert_array_equal(drawn[name].values, Distribution.of(values, state.quality.inverted).values)
     front_histogram.legend.kept[1].menu().actions()[1].trigger()
     assert names[1] not in [one.name for one in window.session.snapshots.all]
     open_and_wait(qtbot, window, mesh_file)
@@ -285,6 +285,6 @@ def test_a_click_on_the_column_of_inverted_hexes_shows_only_them(window, front_h
         pos=point_at(front_histogram, sum(front_histogram.plot.histogram.column) / 2),
     )
     window.refresh()
-    assert window.canvas.viewport.shown == window.session.document.now.figures.n_inverted > 0
+    assert window.canvas.viewport.shown == window.session.document.now.quality.n_inverted > 0
     key(window, Qt.Key.Key_Escape)
     assert window.canvas.viewport.shown == 4000

@@ -47,12 +47,12 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     assert window.session.view.look.colours.range is Range.FITTED
     assert viewport.colouring.title == "change of q(H) since the file was opened"
     np.testing.assert_array_equal(
-        viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
+        viewport.colours.values, window.session.document.now.quality.q - window.session.document.start.quality.q
     )
     go(window, record, 3)
     choose(panel.since, Since.ITERATION)
     then = window.session.history.state(type(timeline.shown_iteration)(record, 2), window.session.document.now.mesh)
-    np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
+    np.testing.assert_allclose(viewport.colours.values, window.session.document.now.quality.q - then.quality.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
     window.refresh()

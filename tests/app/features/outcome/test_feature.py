@@ -220,7 +220,7 @@ def test_a_larger_part_is_free_around_the_hexes_that_are_still_inverted(host, qt
     host.feature.panel.suggestion_chosen.emit(0)
     pinned = session.document.now.mesh.pinned
     assert not pinned[node]
-    inverted = session.document.now.figures.inverted
+    inverted = session.document.now.quality.inverted
     around = mesh.topology.hexes_around(np.flatnonzero(inverted), 2)
     assert not pinned[mesh.hexes[around]].any()
 

@@ -31,7 +31,7 @@ def test_the_window_shows_the_colours_and_the_cut_and_its_plane_cuts_more(fresh_
     fresh_window.action("pyvista_window").trigger()
     (plotter,) = feature.plotters
     qtbot.waitUntil(lambda: plotter.app_window.windowHandle().isExposed())
-    grid, quality = _drawn(plotter), fresh_window.session.document.now.figures
+    grid, quality = _drawn(plotter), fresh_window.session.document.now.quality
     assert np.isclose(grid.bounds[5], height)
     assert set(grid["vtkOriginalCellIds"]) == set(np.flatnonzero(fresh_window.canvas.viewport.remaining_after_cut()))
     assert (grid["q"] == quality.q[grid["vtkOriginalCellIds"]]).all()

@@ -50,7 +50,7 @@ def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, tmp_path):
     second = window.session.selection.hex
     key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": sorted([first, second])}
-    least = window.session.document.now.figures.q[[first, second]].min()
+    least = window.session.document.now.quality.q[[first, second]].min()
     assert about(strip) == f"2 hexes, 2 inverted, q min {least:.4f}"
     key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": [first]}

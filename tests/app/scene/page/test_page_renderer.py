@@ -144,7 +144,7 @@ def test_panels_share_a_range_that_is_fitted():
     scene = Scene(colours=Colours(range=Range.FITTED), page=Page(pixels=(600, 300)))
     good, bad = grid(3), scrambled(grid(3), 0.3)
     drawn_together = pixels(drawn(good, bad, scene=scene))
-    pinned = Scene(colours=Colours(range=(float(PageMesh.of(bad).figures.q.min()), 1.0)), page=scene.page)
+    pinned = Scene(colours=Colours(range=(float(PageMesh.of(bad).quality.q.min()), 1.0)), page=scene.page)
     assert np.abs(drawn_together - pixels(drawn(good, bad, scene=pinned))).mean() < 0.5
 
 

@@ -26,7 +26,7 @@ def shown(mesh):
 
 def look_at(panes, look, movement=None):
     """Draw the same mesh with another look."""
-    panes.draw(Frame(panes.first.frame.mesh, panes.first.frame.figures, movement, look))
+    panes.draw(Frame(panes.first.frame.mesh, panes.first.frame.quality, movement, look))
 
 
 @pytest.fixture

@@ -144,12 +144,12 @@ def test_requested_metrics_are_computed_by_the_worker(document, smoothing, qtbot
     smoothing.request_metrics({"condition"})
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1)
-    assert "condition" in metric_cache.CACHE[frames[0].state.figures]
+    assert "condition" in metric_cache.CACHE[frames[0].state.quality]
     assert smoothing.record.name == "Local steepest descent"
     smoothing.request_metrics({"taper", "q"})  # during a run
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2)
-    assert set(metric_cache.CACHE[frames[1].state.figures]) == {"taper", "q"}
+    assert set(metric_cache.CACHE[frames[1].state.quality]) == {"taper", "q"}
 
 
 def test_stop_takes_effect_within_one_iteration(document, smoothing, qtbot):

@@ -152,7 +152,7 @@ class StructureLayers:
                 )
             classes = self._classes
         places = faces.places(frame.mesh.points)
-        marks = node_marks(frame.mesh, frame.figures, frame.look.structure, classes)[faces.nodes]
+        marks = node_marks(frame.mesh, frame.quality, frame.look.structure, classes)[faces.nodes]
         marked = (marks > 0) & remaining_points(places, frame.look.cut)
         for layer, nodes in ((self.nodes, marked & (marks != _LOCKED)), (self._locked, marked & (marks == _LOCKED))):
             layer.show(np.flatnonzero(nodes)[:, None], _COLOURS[marks[nodes]], places)
@@ -176,13 +176,13 @@ def valence_colours(valence: np.ndarray) -> np.ndarray:
     return table[np.minimum(valence, len(table) - 1)]
 
 
-def node_marks(mesh: Mesh, figures: ElementQuality, switches: Structure, kinds: np.ndarray | None = None) -> np.ndarray:
+def node_marks(mesh: Mesh, quality: ElementQuality, switches: Structure, kinds: np.ndarray | None = None) -> np.ndarray:
     """Return the mark of each node, (n,) uint8: a row number of `_COLOURS`, 0 for none.
 
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the mesh.
     switches : Structure
         Switches of the layers.
@@ -201,8 +201,8 @@ def node_marks(mesh: Mesh, figures: ElementQuality, switches: Structure, kinds: 
         marks[boundary] = _LOCKED + kinds[boundary]
     if switches.is_on("free"):
         marks[mesh.free] = _FREE
-    if switches.is_on("locked") and figures.n_inverted:
-        marks[mesh.hexes[locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)]] = _LOCKED
+    if switches.is_on("locked") and quality.n_inverted:
+        marks[mesh.hexes[locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)]] = _LOCKED
     return marks
 
 
