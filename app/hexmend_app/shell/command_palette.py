@@ -19,7 +19,7 @@ from hexmend_app.picture.colours import colour_quantities
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import note, on_theme_change, set_help
+from hexmend_app.theme.style import on_theme_change, set_help, small_label
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class CommandPalette(QDialog):
         self._list.header().setStretchLastSection(False)
         self._list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._list.header().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        self._nothing = note(tr("No matches."))
+        self._nothing = small_label(tr("No matches."))
         fill(QVBoxLayout(self), self._field, self._list, self._nothing, margins=(8, 8, 8, 8))
         self.resize(_WIDTH, 380)
         self._field.textChanged.connect(self._fill)

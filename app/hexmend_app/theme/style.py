@@ -262,7 +262,7 @@ def narrow(button: QAbstractButton) -> None:
     button.setFixedWidth(max(44, button.fontMetrics().horizontalAdvance(button.text()) + 26))
 
 
-def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:
+def small_label(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:
     """Return a small label that wraps and whose text can be selected."""
     label = QLabel(text, parent)
     label.setFont(smaller(label.font()))

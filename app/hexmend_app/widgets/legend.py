@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import note
+from hexmend_app.theme.style import small_label
 
 
 class Swatch(QWidget):
@@ -39,7 +39,7 @@ def swatch_icon(colour: Role | str) -> QIcon:
 def legend_entry(text: str, colour: Role | str) -> QWidget:
     """Return a widget with a swatch and a text."""
     entry = QWidget()
-    label = note(text)
+    label = small_label(text)
     label.setWordWrap(False)
     label.setSizePolicy(entry.sizePolicy())
     fill(QHBoxLayout(entry), Swatch(colour), label, margins=(0, 0, 8, 0), spacing=4)

@@ -18,7 +18,7 @@ from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import declared_range
 from hexmend_app.theme.palette import WORSE
-from hexmend_app.theme.style import check_box, note, set_help, show_text
+from hexmend_app.theme.style import check_box, set_help, show_text, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -78,7 +78,7 @@ class ColourPanel(QWidget):
         set_help(self._low, tr("Minimum value"), tr("Value of the first colour; to set it, select Pinned."))
         set_help(self._high, tr("Maximum value"), tr("Value of the last colour; to set it, select Pinned."))
         self._neutral, self.shading = check_box(tr("Neutral"), tr(_NEUTRAL)), check_box(tr("Shading"), tr(_SHADING))
-        self._problem = note(colour=WORSE)
+        self._problem = small_label(colour=WORSE)
         self._problem.hide()
         self._lay_out()
 

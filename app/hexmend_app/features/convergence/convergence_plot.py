@@ -19,7 +19,7 @@ from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.theme.palette import MUTED, TEXT
 from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import note, on_theme_change, set_help, smaller, tint
+from hexmend_app.theme.style import on_theme_change, set_help, small_label, smaller, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.plots import MouseView, calm_plot, log_ticks, show_tooltips
@@ -80,7 +80,7 @@ class ConvergencePlot(QWidget):
         self.title.setFont(smaller(self.font()))
         tint(self.title, MUTED)
         set_help(self.title, tr(chart.title), help)
-        self._blank = note()
+        self._blank = small_label()
         self._blank.setAccessibleName(tr("Why the chart of {title} is empty", title=tr(chart.title)))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)

@@ -102,11 +102,11 @@ class FeatureConvergence(Feature):
         )
 
     def _mark(self) -> None:
-        moment = self._timeline.shown_iteration
-        if moment is None:
+        iteration = self._timeline.shown_iteration
+        if iteration is None:
             self.panel.set_shown(None)
         else:
-            self.panel.set_shown(moment.record, moment.number)
+            self.panel.set_shown(iteration.record, iteration.number)
 
     # Files
 

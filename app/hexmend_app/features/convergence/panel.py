@@ -12,7 +12,7 @@ from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, ChartSettings, Curve, axis_title, colour_of
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, note, on_theme_change, set_help, smaller
+from hexmend_app.theme.style import icon, on_theme_change, set_help, small_label, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import scrolled
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -69,7 +69,7 @@ class ConvergencePanel(QWidget):
         stack, self.side = QWidget(), QWidget()
         self._charts = QBoxLayout(QBoxLayout.Direction.TopToBottom, stack)
         fill(self._charts, *((plot, 1) for plot in self.plots.values()), margins=(0, 0, 0, 0), spacing=4)
-        self._empty = note(tr(_EMPTY))
+        self._empty = small_label(tr(_EMPTY))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting = scrolled(stack)
         fill(QVBoxLayout(self.side), self.head, (self.runs, 1), margins=(0, 0, 0, 0))

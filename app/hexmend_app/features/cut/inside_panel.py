@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.style import check_box, icon_button, narrow, note, set_help, tabular
+from hexmend_app.theme.style import check_box, icon_button, narrow, set_help, small_label, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
@@ -69,7 +69,7 @@ class InsidePanel(QWidget):
         self.undo_button = icon_button("undo", tr("Show last"), tr("Show the hex that was hidden last."))
         self.restore_button = icon_button("restore", tr("Show hidden"), tr("Show all hexes that were hidden."))
         self.outline = check_box(tr("Sharp edges and outline"), tr(_OUTLINE))
-        self.shown = note()
+        self.shown = small_label()
         self.shown.setFont(tabular(self.shown.font()))
         self.shown.setWordWrap(False)  # wrapping would reserve a second line
         self._cut_smoothly = False

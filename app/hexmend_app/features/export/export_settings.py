@@ -17,7 +17,7 @@ from hexmend_app.features.export.size_form import SizeForm
 from hexmend_app.picture import Cut, Scene
 from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import note
+from hexmend_app.theme.style import small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
@@ -91,7 +91,7 @@ class ReportSettings(ExportSettings):
     ):
         super().__init__(id, title, name, kinds)
         self._scene, self._find_versions = scene, versions
-        fill(QVBoxLayout(self), note(help), None)
+        fill(QVBoxLayout(self), small_label(help), None)
 
     @cached_property
     def _versions(self) -> list[Version]:
@@ -172,7 +172,7 @@ class FilmSettings(ExportSettings):
         self.size_form, self.form = SizeForm(scene.page), ParameterForm(declared(FilmOptions))
         self.form.set_values(options.values())
         text = tr("{count:,} iterations, with the cut, colours and arrows of the view.", count=iterations + 1)
-        fill(QVBoxLayout(self), note(text), self.size_form, self.form, None)
+        fill(QVBoxLayout(self), small_label(text), self.size_form, self.form, None)
         self.size_form.changed.connect(self.changed)
         self.form.changed.connect(self.changed)
 

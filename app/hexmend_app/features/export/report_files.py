@@ -109,10 +109,10 @@ def versions_of(session: Session) -> list[Version]:
 def _current(session: Session) -> Version:
     """Return the version of the current mesh, with its run if it is an iteration of one."""
     state = session.document.now
-    moment = session.history.iteration_of(state)
-    if moment is None or not moment.number:
+    iteration = session.history.iteration_of(state)
+    if iteration is None or not iteration.number:
         return Version.of("now", state.mesh)
-    record, number = moment.record, moment.number
+    record, number = iteration.record, iteration.number
     version = Version.of(record.name, state.mesh)
     rows = record.rows[: number + 1]
     return replace(version, row=_row(record, number, version), history=rows, advice=record.advice)
@@ -155,16 +155,16 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
 
 def run_recipe(session: Session) -> Recipe | None:
     """Return the recipe of the runs that led from the opened mesh to the current mesh, else None."""
-    moment, recipes = session.history.iteration_of(session.document.now), list[Recipe]()
+    iteration, recipes = session.history.iteration_of(session.document.now), list[Recipe]()
     start = None
-    while moment is not None:
-        record, number = moment.record, moment.number
+    while iteration is not None:
+        record, number = iteration.record, iteration.number
         if number:
             recipe = record.recipe_until(number)
             if recipe is None:
                 return None
             recipes.insert(0, recipe)
-        start, moment = record.start, record.parent
+        start, iteration = record.start, record.parent
     if not recipes or start.mesh.points is not session.document.start.mesh.points:
         return None
     if any(recipe.rules != recipes[0].rules for recipe in recipes):

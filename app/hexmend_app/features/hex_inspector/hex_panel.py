@@ -14,7 +14,7 @@ from hexmend.quality import Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, check_box, icon, note, on_theme_change, set_help, tabular, tint
+from hexmend_app.theme.style import bold, check_box, icon, on_theme_change, set_help, small_label, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
@@ -79,7 +79,7 @@ class HexPanel(QWidget):
 
     def _lay_out(self) -> None:
         self._stack = QStackedLayout(self)
-        hint, page, texts = note(tr(_HINT)), QWidget(), QWidget()
+        hint, page, texts = small_label(tr(_HINT)), QWidget(), QWidget()
         hint.setAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
         hint.setMargin(24)
         self._stack.addWidget(hint)

@@ -15,7 +15,7 @@ from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, ID, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import check_box, icon_button, labelled, note, set_help
+from hexmend_app.theme.style import check_box, icon_button, labelled, set_help, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -74,7 +74,7 @@ class WorstList(QWidget):
         self.save_button = icon_button("content-save-outline", tr("Save list"), help)
         self._model = WorstModel(self)
         self._table = self._make_table()
-        self._text = note()
+        self._text = small_label()
         self._lay_out()
         self._refresh()
 

@@ -135,8 +135,8 @@ class FeatureHistogram(Feature):
 
     def _keep(self) -> None:
         now = self._document.now
-        moment = self.session.history.iteration_of(now)
-        self._snapshots.add("kept" if moment is None else moment.name, now)
+        iteration = self.session.history.iteration_of(now)
+        self._snapshots.add("kept" if iteration is None else iteration.name, now)
 
     def _distribution_of(self, snapshot: Snapshot) -> tuple[str, np.ndarray, Distribution]:
         """Return metric, points and distribution of a snapshot, computed only if metric or points have changed."""

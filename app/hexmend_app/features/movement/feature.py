@@ -14,7 +14,7 @@ from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.picture.displacement import Displacement, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
-from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.theme.style import set_help, small_label, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -120,7 +120,7 @@ class MovementPanel(QWidget):
         self.factor.setFont(tabular(self.factor.font()))
         set_help(self.factor, tr("Length of arrows"), tr(_FACTOR))
         self.show_newly = QPushButton(tr("Show newly invalid"))
-        self._drawn, self._counts = note(), note()
+        self._drawn, self._counts = small_label(), small_label()
         self._drawn.setAccessibleName(tr("Number of arrows"))
         self._counts.setAccessibleName(tr("Counts of the movement"))
         form = form_layout(self)

@@ -23,7 +23,7 @@ from hexmend_app.features.node_step.step_texts import Row, rows
 from hexmend_app.state.node_step import NodeStep, StepStatus
 from hexmend_app.theme.palette import DESCENT, MUTED, OTHERWISE, SEARCH, TAKEN, TEXT, TRIED, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, note, on_theme_change, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import bold, on_theme_change, set_help, small_label, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
@@ -71,11 +71,11 @@ class NodePanel(QWidget):
         for label, name in ((self._title, tr("Node")), (self._status, tr("Outcome of the step"))):
             label.setAccessibleName(name)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._message = note()
+        self._message = small_label()
         self._message.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._message.setMargin(16)
         self.plot = NodePlot()
-        self._no_plot = note(tr(_NO_PLOT))
+        self._no_plot = small_label(tr(_NO_PLOT))
         self._no_plot.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._no_plot.setMargin(16)
         self.figures = NodeFigures()

@@ -14,7 +14,7 @@ from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.host import ChangeReport
 from hexmend_app.state.tasks.mesh_change import PaddingChoice
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import note
+from hexmend_app.theme.style import small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
@@ -108,7 +108,7 @@ class PadDialog(QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         text = tr("Insert a layer of new hexes under the boundary, then run Mend. The boundary does not change.")
-        fill(QVBoxLayout(self), note(text), self.form, buttons)
+        fill(QVBoxLayout(self), small_label(text), self.form, buttons)
         self.setMinimumWidth(_WIDTH)
 
     def accept(self) -> None:

@@ -25,7 +25,7 @@ from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_settings import settings_text
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import icon, labelled, note, set_help
+from hexmend_app.theme.style import icon, labelled, set_help, small_label
 from hexmend_app.translation import tr
 
 _EMPTY = (
@@ -70,7 +70,7 @@ class RecipePanel(QWidget):
         )
         self._list.itemActivated.connect(self._edit)
         self._list.currentRowChanged.connect(self._enable)
-        self._empty = note(tr(_EMPTY))
+        self._empty = small_label(tr(_EMPTY))
         self._add = self._button(
             "plus", tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage.")
         )

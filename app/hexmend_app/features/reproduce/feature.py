@@ -15,7 +15,7 @@ from hexmend_app.features.reproduce.script import script_of
 from hexmend_app.picture import Page, Scene
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.theme.style import icon, set_help, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_save
 
@@ -124,7 +124,7 @@ class ReproducePanel(QWidget):
         self.save_button = QPushButton(icon("content-save-outline"), tr("Save as…"))
         help = tr("Save the script as a Python file: python FILE repeats the changes.")
         set_help(self.save_button, tr("Save the script"), help)
-        purpose = note(tr("Python script that makes the mesh shown again; the view is at its end."))
+        purpose = small_label(tr("Python script that makes the mesh shown again; the view is at its end."))
         script = QWidget()
         head = fill(QHBoxLayout(), (purpose, 1), self.copy_button, self.save_button)
         fill(QVBoxLayout(script), head, (self._text, 1), margins=(0, 0, 0, 0))

@@ -54,8 +54,8 @@ def script_of(session: Session, scene: Scene | None = None) -> str:
         titles = {change.state: change.title for change in document.to_data().changes}
         commands = _commands(session, shown)
         for number, (state, command) in enumerate(commands.items()):
-            moment = session.history.iteration_of(state)
-            title = comment_text(titles.get(state) or (moment.name if moment is not None else "mesh"))
+            iteration = session.history.iteration_of(state)
+            title = comment_text(titles.get(state) or (iteration.name if iteration is not None else "mesh"))
             name = names[state] = f"mesh_{number}"
             body.append(f"# {title[:1].upper()}{title[1:]}\n{name} = {_source(command, names, imports)}")
         body += _saved(session, names, commands)

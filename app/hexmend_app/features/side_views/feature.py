@@ -83,8 +83,8 @@ class FeatureSideViews(Feature):
             self._show_captions()
 
     def _show_in_side_view(self) -> None:
-        moment = self.session.timeline.shown_iteration
-        self._views.show(tr("earlier mesh") if moment is None else moment.name, self.session.document.now)
+        iteration = self.session.timeline.shown_iteration
+        self._views.show(tr("earlier mesh") if iteration is None else iteration.name, self.session.document.now)
 
     def _step_wipe(self, direction: int) -> None:
         if self._views.wipe is not None:

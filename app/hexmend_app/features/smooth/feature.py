@@ -213,13 +213,13 @@ class FeatureSmooth(Feature):
         if phase in (Phase.RUNNING, Phase.PAUSED):
             row = record.rows[-1]
             return row["iteration"], row["seconds"], " ".join(filter(None, (self._stage(row), _balance_text(row))))
-        moment, reason = self.session.timeline.shown_iteration, self.session.run_setup.reason
-        if moment is None or (not moment.number and moment.record.result != 0):
+        iteration, reason = self.session.timeline.shown_iteration, self.session.run_setup.reason
+        if iteration is None or (not iteration.number and iteration.record.result != 0):
             return None, None, reason or self._text_without_step()
-        if moment.record.holds_times:
-            return None, None, reason or f"{moment.name}."
-        row = moment.record.rows[moment.number]
-        ended = moment.record.message if moment.number == moment.record.result else ""
+        if iteration.record.holds_times:
+            return None, None, reason or f"{iteration.name}."
+        row = iteration.record.rows[iteration.number]
+        ended = iteration.record.message if iteration.number == iteration.record.result else ""
         return row["iteration"], row["seconds"], reason or ended
 
     def _text_without_step(self) -> str:

@@ -19,7 +19,7 @@ from hexmend.run.interface_messages import describe_interfaces
 from hexmend.terminal_text import printable
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import note, set_help, show_text
+from hexmend_app.theme.style import set_help, show_text, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -67,7 +67,7 @@ class RuleForm(QWidget):
         self.interfaces = Segmented(
             tr("Interfaces"), [(key, tr(text), tr(help)) for key, (text, help) in _INTERFACES.items()]
         )
-        self._found = note()
+        self._found = small_label()
         self._found.setAccessibleName(tr("Interfaces found"))
         self._filter = QLineEdit()
         self._filter.setClearButtonEnabled(True)
@@ -75,9 +75,9 @@ class RuleForm(QWidget):
         set_help(self._filter, tr("Filter sets"), tr("Show only sets whose names contain this text."))
         self._list = QWidget()
         self._grid = QGridLayout(self._list)
-        self._problem = note("", WORSE)
+        self._problem = small_label("", WORSE)
         self._problem.setAccessibleName(tr("Problem of the rules"))
-        self._more = note()
+        self._more = small_label()
         self._lay_out()
         self.interfaces.chosen.connect(self._on_interfaces)
         self._filter.textChanged.connect(lambda _: self._fill())

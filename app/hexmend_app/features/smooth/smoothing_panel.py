@@ -20,7 +20,7 @@ from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.palette import MUTED, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, note, set_help, tabular, tint
+from hexmend_app.theme.style import labelled, set_help, small_label, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
@@ -81,7 +81,7 @@ class SmoothingPanel(QWidget):
         self._progress = ElidingLabel()  # keeps the width of the panel as the numbers grow
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName(tr("Progress"))
-        self._sentence = note()
+        self._sentence = small_label()
         self._sentence.setAccessibleName(tr("Outcome"))
         self._sentence.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
         # Reserve the height, so that nothing below moves when the sentence changes.
@@ -245,7 +245,7 @@ class StageForm(QObject):
             title, help = tr(method.title), tr(method.help)
             about = f"<b>{escape(title)}</b> ({escape(method.name)})<br>{escape(help)}"
             self.method.add(title, f"<qt>{about}<br><i>{escape(method.source)}</i></qt>", method.name)
-        self.help = note()
+        self.help = small_label()
         self.parameters, self.stop = ParameterForm(), ParameterForm(declared(StoppingCriteria))
         self.show_setup()
         self.method.activated.connect(self._on_method)

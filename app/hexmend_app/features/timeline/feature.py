@@ -95,8 +95,8 @@ class FeatureTimeline(Feature):
     @property
     def _number(self) -> int | None:
         """The displayed iteration of the run; None if the displayed mesh is not one of its iterations."""
-        moment = self._timeline.shown_iteration
-        return moment.number if moment is not None and moment.record is self._timeline.record else None
+        iteration = self._timeline.shown_iteration
+        return iteration.number if iteration is not None and iteration.record is self._timeline.record else None
 
     def _can(self) -> dict[str, bool]:
         """Return which actions are possible; there is a run."""

@@ -43,7 +43,7 @@ class History:
         self._limit = limit
         self._bytes = 0
         self._lock = threading.Lock()
-        self._moments: WeakKeyDictionary[MeasuredMesh, RecordedIteration] = WeakKeyDictionary()
+        self._iterations: WeakKeyDictionary[MeasuredMesh, RecordedIteration] = WeakKeyDictionary()
 
     @property
     def bytes(self) -> int:
@@ -76,7 +76,7 @@ class History:
             count += 1
         record = RunRecord(name, title, start, self.iteration_of(start), self._free_slot())
         self.records.append(record)
-        self._moments[start] = RecordedIteration(record, 0)
+        self._iterations[start] = RecordedIteration(record, 0)
         return record
 
     def add(self, record: RunRecord, iteration: Iteration, positions: bool = True) -> None:
@@ -106,7 +106,7 @@ class History:
             return
         if result is not None:
             record.result, record.end = result.number, end
-            self._moments[end] = result
+            self._iterations[end] = result
 
     def remove(self, record: RunRecord) -> None:
         """Remove a run."""
@@ -114,9 +114,9 @@ class History:
             self.records = [other for other in self.records if other is not record]
             self._bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
             record._offsets.clear()
-        for state, moment in list(self._moments.items()):
-            if moment.record is record:
-                del self._moments[state]
+        for state, iteration in list(self._iterations.items()):
+            if iteration.record is record:
+                del self._iterations[state]
 
     def clear(self) -> None:
         """Remove all runs."""
@@ -129,8 +129,8 @@ class History:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
             records = tuple(to_data(record, at, record._offsets) for record in started)
-        moments = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
-        shown = [(state, at[one.record], one.number) for state, one in moments if one and one.record in at]
+        iterations = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
+        shown = [(state, at[one.record], one.number) for state, one in iterations if one and one.record in at]
         return HistoryData(records, tuple(shown))
 
     def restore(self, data: HistoryData) -> None:
@@ -145,33 +145,33 @@ class History:
             record.message, record.pauses, record.advice = saved.message, dict(saved.pauses), saved.advice
             record.recipe = saved.recipe
             self.records.append(record)
-            self._moments[saved.start] = RecordedIteration(record, 0)
+            self._iterations[saved.start] = RecordedIteration(record, 0)
             if saved.end is not None:
-                self._moments[saved.end] = RecordedIteration(record, saved.result)
+                self._iterations[saved.end] = RecordedIteration(record, saved.result)
             with self._lock:
                 for number, offsets in saved.offsets:
                     record._offsets[number] = offsets
                     self._bytes += offsets.nbytes
-        for state, run, number in data.moments:
-            self._moments[state] = RecordedIteration(self.records[run], number)
+        for state, run, number in data.iterations:
+            self._iterations[state] = RecordedIteration(self.records[run], number)
         with self._lock:
             self._thin()
 
-    def register_state(self, state: MeasuredMesh, moment: RecordedIteration) -> None:
+    def register_state(self, state: MeasuredMesh, iteration: RecordedIteration) -> None:
         """Remember which iteration a state shows."""
-        self._moments[state] = moment
+        self._iterations[state] = iteration
 
     def iteration_of(self, state: MeasuredMesh | None) -> RecordedIteration | None:
         """Find the iteration that a state shows, even after nodes were fixed or hexes tagged; None if there is none."""
         if state is None:
             return None
-        if state not in self._moments:
-            same = (moment for other, moment in self._moments.items() if other.mesh.points is state.mesh.points)
-            moment = next(same, None)
-            if moment is None:
+        if state not in self._iterations:
+            same = (one for other, one in self._iterations.items() if other.mesh.points is state.mesh.points)
+            iteration = next(same, None)
+            if iteration is None:
                 return None
-            self._moments[state] = moment  # the other state may be deleted before this one
-        return self._moments[state]
+            self._iterations[state] = iteration  # the other state may be deleted before this one
+        return self._iterations[state]
 
     def command_of(self, state: MeasuredMesh, recorded: MeasuredMesh) -> Command | None:
         """Return the call that makes an iteration of a run again; None for other states.
@@ -183,13 +183,13 @@ class History:
         recorded : MeasuredMesh
             State of the current change, which has the same `OWN_PARTS`.
         """
-        moment = self.iteration_of(state)
-        if moment is None:
+        iteration = self.iteration_of(state)
+        if iteration is None:
             return None
-        start = moment.record.start
-        if not moment.number:
+        start = iteration.record.start
+        if not iteration.number:
             return None if state is start else Command("move", (recorded, start))
-        recipe = moment.record.recipe_until(moment.number)
+        recipe = iteration.record.recipe_until(iteration.number)
         like = start if _same_own_parts(state.mesh, start.mesh) else recorded
         return None if recipe is None else Command("smooth", (start, like), recipe=recipe)
 
@@ -198,26 +198,26 @@ class History:
         with self._lock:
             return record.numbers()
 
-    def state(self, moment: RecordedIteration, mesh: Mesh) -> MeasuredMesh:
+    def state(self, iteration: RecordedIteration, mesh: Mesh) -> MeasuredMesh:
         """Return the state at an iteration, or at the nearest recorded one; `iteration_of` tells which.
 
         Parameters
         ----------
-        moment : RecordedIteration
+        iteration : RecordedIteration
         mesh : Mesh
             The open mesh, whose `OWN_PARTS` the state gets.
         """
-        record = moment.record
+        record = iteration.record
         with self._lock:
             numbers = record.numbers()
-            number = int(numbers[np.abs(numbers - moment.number).argmin()])
+            number = int(numbers[np.abs(numbers - iteration.number).argmin()])
             points = record.points(number)
         for state in (record.start, record.end):
             if state is not None and state.mesh.points is points and _same_own_parts(state.mesh, mesh):
                 break
         else:
             state = _state_with(mesh, record, points)
-        self._moments[state] = RecordedIteration(record, number)
+        self._iterations[state] = RecordedIteration(record, number)
         return state
 
     def _free_slot(self) -> int:

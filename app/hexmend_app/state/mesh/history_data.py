@@ -70,13 +70,13 @@ class HistoryData:
     """Data of the history in a session file: its runs, and the iterations that some states show (run, number)."""
 
     records: tuple[RecordData, ...]
-    moments: tuple[tuple[MeasuredMesh, int, int], ...]
+    iterations: tuple[tuple[MeasuredMesh, int, int], ...]
 
     def __post_init__(self) -> None:
         for at, record in enumerate(self.records):
             if record.parent is not None:
                 self._check(*record.parent, at)
-        for _, run, number in self.moments:
+        for _, run, number in self.iterations:
             self._check(run, number, len(self.records))
 
     def check(self) -> None:

@@ -68,10 +68,11 @@ class Commands(QObject):
         if path.suffix.lower() == SUFFIX:
             saving = SaveTask(path, document.now, document.recorded, session.to_data())
         else:
-            moment = session.timeline.shown_iteration
+            iteration = session.timeline.shown_iteration
             if document.previews and session.editable:
                 command = session.history.command_of(document.now, document.recorded)
-                document.commit("go back" if moment is None else f"go to {moment.name}", document.now, command=command)
+                title = "go back" if iteration is None else f"go to {iteration.name}"
+                document.commit(title, document.now, command=command)
             saving = SaveTask(path, document.now, document.now, None, rewrite)
         self._saver.save(saving)
         return saving

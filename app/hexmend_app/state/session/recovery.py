@@ -247,10 +247,10 @@ def _ended_now(data: session_data.SessionData, record: RunRecord, newest: Iterat
     number, state, message = newest.iteration.number, newest.state, tr("cut short")
     ended = replace(data.history.records[at], result=number, end=state, message=message, offsets=())
     records = (*data.history.records[:at], ended, *data.history.records[at + 1 :])
-    moments = (*(moment for moment in data.history.moments if moment[0] is not state), (state, at, number))
+    iterations = (*(one for one in data.history.iterations if one[0] is not state), (state, at, number))
     before = data.document.changes[: data.document.at + 1]
     document = replace(data.document, changes=(*before, Change(record.title, state)), at=len(before), now=state)
-    return replace(data, document=document, history=replace(data.history, records=records, moments=moments))
+    return replace(data, document=document, history=replace(data.history, records=records, iterations=iterations))
 
 
 def _lock_folder(folder: Path) -> QLockFile | None:

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, note, set_help, show_text
+from hexmend_app.theme.style import labelled, set_help, show_text, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, remember_folder
 
@@ -57,7 +57,7 @@ class SaveDialog(QDialog):
             tr("File to save {subject} to: {suffixes}.", subject=subject, suffixes=", ".join(self.suffixes)),
         )
         self.target.edited.connect(lambda: self.refuse(""))
-        self._problem = note("", WORSE)
+        self._problem = small_label("", WORSE)
         self._problem.setAccessibleName(tr("Problem"))
 
     def lay_out_below(self, upper: QLayout, *additional: QPushButton) -> None:

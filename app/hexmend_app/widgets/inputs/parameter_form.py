@@ -14,7 +14,7 @@ from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, note, set_help, show_text, tool_button
+from hexmend_app.theme.style import labelled, set_help, show_text, small_label, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.wording import label_of, short_number
@@ -56,8 +56,8 @@ class ParameterForm(QWidget):
         self._rows.setVerticalSpacing(4)
         self._rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._rows.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        self._none = note(tr("No parameters."))
-        self._problem = note("", WORSE)
+        self._none = small_label(tr("No parameters."))
+        self._problem = small_label("", WORSE)
         self._defaults = self._button(tr("Defaults"), "restore", tr("Reset all parameters to their defaults."))
         self._defaults.clicked.connect(self._reset)
         self._advanced = self._button(tr("Advanced"), "tune-variant", tr("Show the advanced parameters as well."))

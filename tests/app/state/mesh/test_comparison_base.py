@@ -149,9 +149,9 @@ def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():
     numbers = history.recorded_numbers(record)
     assert len(numbers) == 5
     dropped = next(n for n in range(20) if n not in numbers)
-    moment = history.iteration_of(history.state(RecordedIteration(record, dropped), MESH))
-    assert moment.number in numbers
-    assert abs(moment.number - dropped) == np.abs(numbers - dropped).min()
+    iteration = history.iteration_of(history.state(RecordedIteration(record, dropped), MESH))
+    assert iteration.number in numbers
+    assert abs(iteration.number - dropped) == np.abs(numbers - dropped).min()
 
 
 def test_a_branch_has_its_parent_and_a_unique_name():

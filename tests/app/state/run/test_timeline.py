@@ -31,7 +31,7 @@ def test_no_iteration_is_lost_and_all_are_shown_in_order(session, qtbot):
     session.timeline.go(record, 0)
     for _ in range(40):
         session.timeline.step(1)
-    assert [moment.number for moment in shown] == list(range(41))
+    assert [iteration.number for iteration in shown] == list(range(41))
     expected = smoothed(start, LocalSteepestDescent(), StoppingCriteria(max_iterations=17, tolerance=0))
     session.timeline.go(record, 17)
     np.testing.assert_allclose(session.document.now.mesh.points, expected.mesh.points, atol=1e-7)
