@@ -230,11 +230,19 @@ def check_box(text: str, help: str, on: bool = False) -> QCheckBox:
     return box
 
 
+def push_button(text: str, help: str, icon_name: str = "", name: str = "") -> QPushButton:
+    """Return a button with help, an icon unless its name is "", and an accessible name, by default its text."""
+    button = QPushButton(text)
+    if icon_name:
+        button.setIcon(icon(icon_name))
+    set_help(button, name or text.removesuffix("…"), help)
+    return button
+
+
 def icon_button(icon_name: str, name: str, help: str) -> QPushButton:
     """Return a narrow button with an icon in place of its name."""
-    button = QPushButton(icon(icon_name), "")
+    button = push_button("", help, icon_name, name)
     button.setFixedWidth(34)
-    set_help(button, name, help)
     return button
 
 

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import KEYS, METHOD, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, set_help, smaller, tabular, tint
+from hexmend_app.theme.style import icon_button, push_button, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -61,10 +61,10 @@ class ComparePanel(QWidget):
         super().__init__(parent)
         self._editable = False
         self.model = ComparisonModel(ticks, self)
-        self._use = QPushButton(tr("Use result"))
-        set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
-        self.save_button = QPushButton(icon("content-save-outline"), "")
-        set_help(self.save_button, tr("Save table"), tr("Save the table of methods as CSV, Markdown, LaTeX or JSON."))
+        help = tr("Replace the mesh by the result of the selected row. Can be undone.")
+        self._use = push_button(tr("Use result"), help)
+        help = tr("Save the table of methods as CSV, Markdown, LaTeX or JSON.")
+        self.save_button = icon_button("content-save-outline", tr("Save table"), help)
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName(tr("Comparison progress"))

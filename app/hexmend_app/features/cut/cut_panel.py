@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QPushButton, QTabBar, QWidget
+from PySide6.QtWidgets import QTabBar, QWidget
 
 from hexmend_app.features.cut.number_row import NumberRow
 from hexmend_app.features.cut.plane_editor import PlaneEditor
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Sphere
-from hexmend_app.theme.style import check_box, icon_button, set_help
+from hexmend_app.theme.style import check_box, icon_button, push_button, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -122,8 +122,8 @@ class CutPanel(QWidget):
         axes = [tr("Centre {axis}", axis=axis) for axis in "XYZ"]
         self._centre = NumberRow(axes, tr("Centre of the sphere, in mesh units."))
         self._radius = NumberRow([tr("Radius")], tr("Radius of the sphere, in mesh units."), low=0.0)
-        self.at_hex = QPushButton(tr("Centre on hex"))
-        set_help(self.at_hex, tr("Centre on hex"), tr("Move the centre to the selected hex; click a hex to select it."))
+        help = tr("Move the centre to the selected hex; click a hex to select it.")
+        self.at_hex = push_button(tr("Centre on hex"), help)
         self.at_hex.setEnabled(False)
         self._unit = _segmented(tr("Unit of depth"), _UNITS)
         ends = tr("Minimum depth"), tr("Maximum depth")

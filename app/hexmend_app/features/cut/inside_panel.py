@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
-from hexmend_app.theme.style import check_box, icon_button, narrow, set_help, small_label, tabular
+from hexmend_app.theme.style import check_box, icon_button, narrow, push_button, set_help, small_label, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout, row_of
 from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
@@ -62,9 +62,8 @@ class InsidePanel(QWidget):
         self.rings.setRange(0, _MAX_RINGS)
         set_help(self.rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
-        self.all_button = QPushButton(tr("All"))
+        self.all_button = push_button(tr("All"), tr("End the isolation and show all hexes."), name=tr("Show all"))
         narrow(self.all_button)
-        set_help(self.all_button, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
         self.undo_button = icon_button("undo", tr("Show last"), tr("Show the hex that was hidden last."))
         self.restore_button = icon_button("restore", tr("Show hidden"), tr("Show all hexes that were hidden."))

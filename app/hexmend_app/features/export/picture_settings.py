@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.features.export.export_settings import ExportSettings
@@ -16,7 +16,7 @@ from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_s
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
 from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import set_help
+from hexmend_app.theme.style import push_button, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_open, ask_to_save
 from hexmend_app.widgets.inputs.combo import ComboBox
@@ -95,9 +95,8 @@ class PictureSettings(ExportSettings):
             column.addWidget(group)
             if title == tr("Text"):
                 column.addWidget(captions)
-        load, save = QPushButton(tr("Load scene…")), QPushButton(tr("Save scene…"))
-        set_help(load, tr("Load scene…"), tr("Load these settings from a scene file."))
-        set_help(save, tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
+        load = push_button(tr("Load scene…"), tr("Load these settings from a scene file."))
+        save = push_button(tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
         kind, title = tr("Scene (*.toml)"), tr("Save scene as")
         load.clicked.connect(
             lambda: self.load(ask_to_open(self, tr("Load scene"), tr("Scenes (*.toml);;All files (*)")))

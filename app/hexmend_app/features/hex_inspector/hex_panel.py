@@ -7,14 +7,23 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QStackedLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedLayout, QVBoxLayout, QWidget
 from superqt import QFlowLayout
 
 from hexmend.quality import Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, check_box, icon, on_theme_change, set_help, small_label, tabular, tint
+from hexmend_app.theme.style import (
+    bold,
+    check_box,
+    on_theme_change,
+    push_button,
+    set_help,
+    small_label,
+    tabular,
+    tint,
+)
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
@@ -60,9 +69,8 @@ class HexPanel(QWidget):
         tint(self._state, INVERTED_TEXT)
         text = tr("Show q(T) at the corners of the hex in the view.")
         self.corners_box = check_box(tr("Corner qualities in the view"), text)
-        self.zoom_button = QPushButton(icon("target"), tr("Zoom to hex"))
         text = tr("Move the camera to the hex; Enter or a double-click in the list of the worst does the same.")
-        set_help(self.zoom_button, tr("Zoom to hex"), text)
+        self.zoom_button = push_button(tr("Zoom to hex"), text, "target")
         self.neighbours, self._corners = LinkLabel(), LinkLabel()
         set_help(self.neighbours, tr("Neighbours"), tr("The hexes across the six faces; click one to select it."))
         set_help(self._corners, tr("Corners"), tr("The nodes at the corners, and q(T) there; click one to select it."))

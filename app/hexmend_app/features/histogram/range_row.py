@@ -6,14 +6,14 @@ import math
 from dataclasses import replace
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.distribution import Axis
 from hexmend_app.theme.palette import INVERTED
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import narrow, set_help, tabular
+from hexmend_app.theme.style import narrow, push_button, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import swatch_icon
 from hexmend_app.widgets.metric_texts import in_sentence
@@ -39,8 +39,10 @@ class RangeRow(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._axis, self._range = Axis("q"), Show()
-        self.low, self.high, self.all = QLineEdit(), QLineEdit(), QPushButton(tr("All"))
-        set_help(self.all, tr("Show all"), tr("Show the hexes of all values (or double-click the plot)."))
+        self.low, self.high = QLineEdit(), QLineEdit()
+        self.all = push_button(
+            tr("All"), tr("Show the hexes of all values (or double-click the plot)."), name=tr("Show all")
+        )
         narrow(self.all)
         self.all.clicked.connect(lambda: self.chosen.emit(None))
         self.inverted = QToolButton()

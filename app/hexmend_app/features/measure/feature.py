@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtWidgets import QWidget
 
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.picture.appearance import Measurement
-from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.theme.style import push_button, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.view_strip import ViewStrip
@@ -81,9 +81,9 @@ class MeasureStrip(ViewStrip):
         self._measurement = Measurement()
         self.text = ElidingLabel()
         self.text.setFont(tabular(self.text.font()))
-        self._copy, self.clear_button = QPushButton(icon("content-copy"), tr("Copy")), QPushButton(tr("Clear"))
-        set_help(self._copy, tr("Copy measurement"), tr("Copy the points, distances and angle to the clipboard."))
-        set_help(self.clear_button, tr("Clear measurement"), tr("Remove the measured points."))
+        help = tr("Copy the points, distances and angle to the clipboard.")
+        self._copy = push_button(tr("Copy"), help, "content-copy", name=tr("Copy measurement"))
+        self.clear_button = push_button(tr("Clear"), tr("Remove the measured points."), name=tr("Clear measurement"))
         self.add((self.text, 1), self._copy, self.clear_button)
         self._copy.clicked.connect(self.copy)
 

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QSizePolicy,
     QStackedLayout,
     QTextBrowser,
@@ -23,7 +22,7 @@ from hexmend_app.features.node_step.step_texts import Row, rows
 from hexmend_app.state.node_step import NodeStep, StepStatus
 from hexmend_app.theme.palette import DESCENT, MUTED, OTHERWISE, SEARCH, TAKEN, TEXT, TRIED, WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import bold, on_theme_change, set_help, small_label, smaller, tabular, tint
+from hexmend_app.theme.style import bold, on_theme_change, push_button, set_help, small_label, smaller, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
@@ -87,10 +86,8 @@ class NodePanel(QWidget):
             tr("Free nodes"),
             tr("Nodes of the selected hex that methods may move; click one to select it."),
         )
-        self.isolate_button = QPushButton(tr("Isolate patch"))
-        set_help(
-            self.isolate_button, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again.")
-        )
+        text, help = tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again.")
+        self.isolate_button = push_button(text, help)
         self._buttons = [ActionButton(id, with_text=True) for id in SWEEP]
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))

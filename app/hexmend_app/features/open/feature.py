@@ -16,10 +16,9 @@ from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.open.welcome import RecentMenu, Welcome, card
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture, RestoreProblem
+from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
-from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
 
@@ -248,16 +247,15 @@ def _other_meshes(restored: RestoredPicture) -> str:
     else:
         layout = tr("are shown next to it") if len(shown) > 1 else tr("is shown next to it")
     sentences = [f"{names} {layout}."] if shown else []
-    sentences += [_problem(mesh) for mesh in restored.others if mesh.problem is not None]
+    sentences += [_problem(mesh) for mesh in restored.others if mesh.problem]
     return "".join(f" {sentence}" for sentence in sentences)
 
 
 def _problem(mesh: RestoredMesh) -> str:
     """Explain why another mesh of a picture is not shown, or how it differs."""
-    reason = tr(mesh.problem, views=MAX_SIDE_VIEWS + 1, file=mesh.file, error=str(mesh.error).rstrip("."))
-    if mesh.problem is RestoreProblem.PLACES:
-        return tr("“{name}” differs from the picture: {reason}.", name=mesh.name, reason=reason)
-    return tr("“{name}” is not shown: {reason}.", name=mesh.name, reason=reason)
+    if mesh.state is not None:
+        return tr("“{name}” differs from the picture: {reason}.", name=mesh.name, reason=mesh.problem)
+    return tr("“{name}” is not shown: {reason}.", name=mesh.name, reason=mesh.problem)
 
 
 def missing_mesh_message(missing: MissingMesh) -> tuple[str, str]:

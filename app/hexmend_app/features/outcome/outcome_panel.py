@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWi
 from hexmend.advice import Advice, Suggestion
 from hexmend_app.theme.palette import INVERTED_TEXT, TEXT, WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import on_theme_change, set_help
+from hexmend_app.theme.style import on_theme_change, push_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import counted, with_minus
@@ -110,8 +110,8 @@ class OutcomePanel(QWidget):
         for index, suggestion in enumerate(suggestions):
             text = QLabel(f"<b>{escape(suggestion.title)}.</b> {escape(suggestion.text)}")
             text.setWordWrap(True)
-            button = QPushButton(tr("Select"))
-            set_help(button, tr("Select: {title}", title=suggestion.title), _selection_help(suggestion))
+            name = tr("Select: {title}", title=suggestion.title)
+            button = push_button(tr("Select"), _selection_help(suggestion), name=name)
             button.clicked.connect(lambda _=False, index=index: self.suggestion_chosen.emit(index))
             self._suggestions.addWidget(text, index, 0)
             self._suggestions.addWidget(button, index, 1, Qt.AlignmentFlag.AlignTop)

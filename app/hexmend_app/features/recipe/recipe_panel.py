@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
     QMenu,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -25,7 +24,7 @@ from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_settings import settings_text
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import icon, labelled, set_help, small_label
+from hexmend_app.theme.style import icon_button, labelled, push_button, set_help, small_label
 from hexmend_app.translation import tr
 
 _EMPTY = (
@@ -71,23 +70,23 @@ class RecipePanel(QWidget):
         self._list.itemActivated.connect(self._edit)
         self._list.currentRowChanged.connect(self._enable)
         self._empty = small_label(tr(_EMPTY))
-        self._add = self._button(
-            "plus", tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage.")
+        self._add = push_button(
+            tr("Add"), tr("Add the method above, with its parameters and limits, as the last stage."), "plus"
         )
-        self._replace = self._button(
-            "swap-horizontal", "", tr("Replace the selected stage by the method above."), tr("Replace the stage")
+        self._replace = icon_button(
+            "swap-horizontal", tr("Replace the stage"), tr("Replace the selected stage by the method above.")
         )
-        self._up = self._button("chevron-up", "", tr("Move the selected stage up."), tr("Move up"))
-        self._down = self._button("chevron-down", "", tr("Move the selected stage down."), tr("Move down"))
-        self._remove = self._button("delete-outline", "", tr("Remove the selected stage."), tr("Remove the stage"))
-        self.run_button = self._button(
-            "play", tr("Run"), tr("Run the stages in sequence, as one run."), tr("Run recipe")
+        self._up = icon_button("chevron-up", tr("Move up"), tr("Move the selected stage up."))
+        self._down = icon_button("chevron-down", tr("Move down"), tr("Move the selected stage down."))
+        self._remove = icon_button("delete-outline", tr("Remove the stage"), tr("Remove the selected stage."))
+        self.run_button = push_button(
+            tr("Run"), tr("Run the stages in sequence, as one run."), "play", name=tr("Run recipe")
         )
-        self._load = self._button(
-            "folder-open-outline", tr("Load"), tr("Load a recipe from a file or a built-in recipe.")
+        self._load = push_button(
+            tr("Load"), tr("Load a recipe from a file or a built-in recipe."), "folder-open-outline"
         )
-        self.save_button = self._button(
-            "content-save-outline", "", tr("Save the recipe as a TOML file, for hexmend smooth."), tr("Save")
+        self.save_button = icon_button(
+            "content-save-outline", tr("Save"), tr("Save the recipe as a TOML file, for hexmend smooth.")
         )
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
@@ -98,13 +97,6 @@ class RecipePanel(QWidget):
         self._down.clicked.connect(lambda: self._move(1))
         self._remove.clicked.connect(lambda: draft.remove(self._list.currentRow()))
         self._lay_out()
-
-    def _button(self, icon_name: str, text: str, help: str, name: str = "") -> QPushButton:
-        button = QPushButton(icon(icon_name), text)
-        if not text:
-            button.setFixedWidth(34)
-        set_help(button, name or text, help)
-        return button
 
     def _lay_out(self) -> None:
         head = fill(QHBoxLayout(), labelled(tr("Title"), self._title), (self._title, 1), spacing=4)

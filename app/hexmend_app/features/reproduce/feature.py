@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from PySide6.QtGui import QFontDatabase
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
 
 from hexmend.report.documents import write_text
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
@@ -15,7 +15,7 @@ from hexmend_app.features.reproduce.script import script_of
 from hexmend_app.picture import Page, Scene
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, set_help, small_label
+from hexmend_app.theme.style import push_button, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_save
 
@@ -119,11 +119,10 @@ class ReproducePanel(QWidget):
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName(tr("Script"))
-        self.copy_button = QPushButton(icon("content-copy"), tr("Copy"))
-        set_help(self.copy_button, tr("Copy the script"), tr("Copy the whole script to the clipboard."))
-        self.save_button = QPushButton(icon("content-save-outline"), tr("Save as…"))
+        help = tr("Copy the whole script to the clipboard.")
+        self.copy_button = push_button(tr("Copy"), help, "content-copy", name=tr("Copy the script"))
         help = tr("Save the script as a Python file: python FILE repeats the changes.")
-        set_help(self.save_button, tr("Save the script"), help)
+        self.save_button = push_button(tr("Save as…"), help, "content-save-outline", name=tr("Save the script"))
         purpose = small_label(tr("Python script that makes the mesh shown again; the view is at its end."))
         script = QWidget()
         head = fill(QHBoxLayout(), (purpose, 1), self.copy_button, self.save_button)

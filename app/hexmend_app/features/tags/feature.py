@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
+from PySide6.QtWidgets import QComboBox, QWidget
 
 from hexmend_app.feature import Action, Feature, Host, StatePart
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.theme.palette import MUTED
-from hexmend_app.theme.style import labelled, set_help, tint
+from hexmend_app.theme.style import labelled, push_button, set_help, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_new_name
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -79,15 +79,7 @@ class FeatureTags(Feature):
             return
         now = self.session.document.now
         if self._seen.changed("tags", now):
-            self.strip.set_tags([
-                Tag(
-                    name,
-                    len(members),
-                    int(np.count_nonzero(now.quality.inverted[members])),
-                    float(now.quality.q[members].min()) if len(members) else None,
-                )
-                for name, members in now.mesh.hex_sets.items()
-            ])  # fmt: skip
+            self.strip.set_tags({name: describe(now, members) for name, members in now.mesh.hex_sets.items()})
 
     def _tag_selected(self) -> None:
         """Show the strip, and tag or untag the selected hex, or tell why that is not possible."""
@@ -117,23 +109,12 @@ class FeatureTags(Feature):
         return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)
 
 
-@dataclass(frozen=True)
-class Tag:
-    """Tag with its number of hexes, of inverted hexes, and the minimum q (None without hexes)."""
-
-    name: str
-    hexes: int
-    inverted: int
-    q_min: float | None
-
-    def describe(self) -> str:
-        """Return the figures as text.
-
-        >>> Tag("bad", 3, 1, 0.25).describe()
-        '3 hexes, 1 inverted, q min 0.2500'
-        """
-        figures = {"hexes": counted(self.hexes, "hex"), "inverted": f"{self.inverted:,}", "q": figure(self.q_min)}
-        return tr("{hexes}, {inverted} inverted, q min {q}", **figures)
+def describe(state: MeasuredMesh, members: np.ndarray) -> str:
+    """Return the number of hexes of a tag, of inverted hexes, and the minimum q (none without hexes)."""
+    least = float(state.quality.q[members].min()) if len(members) else None
+    inverted = int(np.count_nonzero(state.quality.inverted[members]))
+    values = {"hexes": counted(len(members), "hex"), "inverted": f"{inverted:,}", "q": figure(least)}
+    return tr("{hexes}, {inverted} inverted, q min {q}", **values)
 
 
 class TagStrip(ViewStrip):
@@ -146,7 +127,7 @@ class TagStrip(ViewStrip):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(tr("Tags"), parent)
-        self._tags: dict[str, Tag] = {}
+        self._tags: dict[str, str] = {}  # descriptions by name
         self._busy = self._hex_selected = False
         self._name = QComboBox()
         self._name.setEditable(True)
@@ -155,12 +136,12 @@ class TagStrip(ViewStrip):
         self._name.setMinimumContentsLength(12)
         self._name.setCurrentText("tagged")
         set_help(self._name, tr("Tag"), tr("Name of a tag; tags are saved with the mesh in VTK and VTU files."))
-        self.hex_button = self._button(tr("Hex"), tr("Tag the selected hex, or remove the tag (T)."))
-        self.shown_button = self._button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
-        self.listed_button = self._button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
-        self.isolate_button = self._button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))
-        self.rename_button = self._button(tr("Rename…"), tr("Give the tag another name."))
-        self.remove_button = self._button(tr("Remove"), tr("Remove this tag from all hexes."))
+        self.hex_button = push_button(tr("Hex"), tr("Tag the selected hex, or remove the tag (T)."))
+        self.shown_button = push_button(tr("Shown"), tr("Tag all hexes shown in the view, except hidden ones."))
+        self.listed_button = push_button(tr("Worst"), tr("Tag all hexes in the list of the worst."))
+        self.isolate_button = push_button(tr("Isolate"), tr("Show only the hexes with this tag and their neighbours."))
+        self.rename_button = push_button(tr("Rename…"), tr("Give the tag another name."))
+        self.remove_button = push_button(tr("Remove"), tr("Remove this tag from all hexes."))
         self._about = ElidingLabel()
         self._about.setAccessibleName(tr("About the tag"))
         tint(self._about, MUTED)
@@ -169,11 +150,6 @@ class TagStrip(ViewStrip):
         self.add(labelled(tr("Tag"), self._name), self._name, *buttons, (self._about, 1), *of_tag)
         self._name.editTextChanged.connect(self._refresh)
         self._refresh()
-
-    def _button(self, text: str, help: str) -> QPushButton:
-        button = QPushButton(text)
-        set_help(button, text.removesuffix("…"), help)
-        return button
 
     @property
     def name(self) -> str:
@@ -193,10 +169,10 @@ class TagStrip(ViewStrip):
             return tr(_NAMELESS)
         return "" if self._hex_selected else tr(_NONE_SELECTED)
 
-    def set_tags(self, tags: Sequence[Tag]) -> None:
-        """Set the tags of the mesh."""
+    def set_tags(self, tags: Mapping[str, str]) -> None:
+        """Set the tags of the mesh: their descriptions by name."""
         name = self._name.currentText()
-        self._tags = {tag.name: tag for tag in tags}
+        self._tags = dict(tags)
         with QSignalBlocker(self._name):
             self._name.clear()
             self._name.addItems(list(self._tags))
@@ -216,6 +192,6 @@ class TagStrip(ViewStrip):
         self.isolate_button.setEnabled(tag is not None)
         for button in (self.rename_button, self.remove_button):
             button.setEnabled(tag is not None and not self._busy)
-        about = tag.describe() if tag is not None and not self._busy else self.obstacle
+        about = tag if tag is not None and not self._busy else self.obstacle
         self._about.setText(about)
         self._about.setToolTip(about)

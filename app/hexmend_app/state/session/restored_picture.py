@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -16,19 +15,7 @@ from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.picture_metadata import PicturedMesh, PictureMetadata, digest
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, NOW
-
-
-class RestoreProblem(StrEnum):
-    """Why a mesh of a picture cannot be shown, or differs from the picture."""
-
-    NO_SPACE = "the window shows at most {views} views"
-    NAME = "the picture does not contain the name of its file"
-    FILE = "{file} was not found"
-    READING = "{error}"
-    RUN = "it is an iteration or a result of a run on {file}, which is not stored in that file"
-    HEXES = "{file} has other hexes; side views must have the hexes of the main view"
-    PLACES = "{file} has other node positions"
-    """The mesh is shown."""
+from hexmend_app.translation import tr
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,23 +26,18 @@ class RestoredMesh:
     ----------
     name : str
         Name in the picture.
-    file : str
-        Name of its file; "" if unknown.
     state : MeasuredMesh or None
         State with the hexes of the first mesh; None if the mesh cannot be shown next to it.
-    problem : RestoreProblem or None
-    error : HexmendError or None
-        Error in reading the file.
-    path : Path or None
-        Path of the file; None if the mesh is not shown.
+    problem : str
+        Why the mesh cannot be shown, or how it differs from the picture; "" if neither applies.
+    is_expected : bool
+        The problem is due to the window or to a run, not to a file that has changed.
     """
 
     name: str
-    file: str
     state: MeasuredMesh | None = None
-    problem: RestoreProblem | None = None
-    error: HexmendError | None = None
-    path: Path | None = None
+    problem: str = ""
+    is_expected: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +71,8 @@ class RestoredPicture:
     @property
     def matches(self) -> bool:
         """True if the picture shows these meshes; the first may also be the mesh before the run."""
-        harmless = None, RestoreProblem.NO_SPACE, RestoreProblem.RUN
         first_matches = self.digest in (self.metadata.first.opened, self.metadata.first.shown)
-        return first_matches and all(mesh.problem in harmless for mesh in self.others)
+        return first_matches and all(mesh.is_expected or not mesh.problem for mesh in self.others)
 
     @property
     def wipe_position(self) -> float | None:
@@ -139,10 +120,11 @@ def restore_picture(
     names = _mesh_names(metadata)
     first, *rest = names
     others: list[RestoredMesh] = []
+    no_space = tr("the window shows at most {views} views", views=MAX_SIDE_VIEWS + 1)
     for number in rest:
         pictured, name = metadata.meshes[number - 1], names[number]
         if len(others) == MAX_SIDE_VIEWS:
-            others.append(RestoredMesh(name, PurePosixPath(pictured.file).name, problem=RestoreProblem.NO_SPACE))
+            others.append(RestoredMesh(name, None, no_space, is_expected=True))
         elif pictured.file and pictured.file == metadata.meshes[first - 1].file:
             others.append(_restore_mesh(name, pictured, path, states_by_digest.get(pictured.shown, state), state))
         else:
@@ -178,12 +160,15 @@ def _read_mesh(
     """Read a mesh from its own file and restore it."""
     paths = pictured.candidates(picture)
     if not paths:
-        return RestoredMesh(name, pictured.file, problem=RestoreProblem.FILE if pictured.file else RestoreProblem.NAME)
+        missing = tr("{file} was not found", file=pictured.file)
+        return RestoredMesh(
+            name, None, missing if pictured.file else tr("the picture does not contain the name of its file")
+        )
     on_read(paths[0])
     try:
         state = MeasuredMesh.of(read(paths[0]))
     except HexmendError as error:
-        return RestoredMesh(name, paths[0].name, problem=RestoreProblem.READING, error=error)
+        return RestoredMesh(name, None, str(error).rstrip("."))
     return _restore_mesh(name, pictured, paths[0], state, first)
 
 
@@ -191,13 +176,16 @@ def _restore_mesh(
     name: str, pictured: PicturedMesh, path: Path, state: MeasuredMesh, first: MeasuredMesh
 ) -> RestoredMesh:
     """Restore a mesh for a side view, with the hexes of the first mesh."""
-    found = digest(state.mesh)
+    found, file = digest(state.mesh), path.name
     if found == pictured.opened != pictured.shown:
-        return RestoredMesh(name, path.name, problem=RestoreProblem.RUN)
+        of_run = tr("it is an iteration or a result of a run on {file}, which is not stored in that file", file=file)
+        return RestoredMesh(name, None, of_run, is_expected=True)
     if not _same_hexes(state.mesh, first.mesh):
-        return RestoredMesh(name, path.name, problem=RestoreProblem.HEXES)
+        other = tr("{file} has other hexes; side views must have the hexes of the main view", file=file)
+        return RestoredMesh(name, None, other)
     shared = replace(state, mesh=first.mesh.with_points(state.mesh.points))
-    return RestoredMesh(name, path.name, shared, None if found == pictured.shown else RestoreProblem.PLACES, path=path)
+    moved = "" if found == pictured.shown else tr("{file} has other node positions", file=file)
+    return RestoredMesh(name, shared, moved)
 
 
 def _same_hexes(mesh: Mesh, other: Mesh) -> bool:
