@@ -14,7 +14,7 @@ from hexmend_app.picture.camera import Camera
 MAX_CAMERAS = 100
 
 #: Key in session files.
-_KEY = "cameras"
+_KEY = "saved_cameras"
 
 
 @dataclass(frozen=True)

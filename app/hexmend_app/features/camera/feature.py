@@ -168,9 +168,9 @@ class FeatureCamera(Feature):
 
     def refresh(self) -> None:
         """Restore the camera of an opened session, and the camera from before an isolation once it ends."""
-        if self.session.camera_request.wanted is not None and self._draws:
-            self._apply(self.session.camera_request.wanted)
-            self.session.camera_request.wanted = None
+        if self.session.view.wanted_camera is not None and self._draws:
+            self._apply(self.session.view.wanted_camera)
+            self.session.view.wanted_camera = None
         isolated = self.session.view.look.show.isolate is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
@@ -225,13 +225,13 @@ class FeatureCamera(Feature):
 
     def _to_data(self) -> CameraPose | None:
         """Return the pose of the view; a requested pose that it has not taken yet comes first."""
-        wanted = self.session.camera_request.wanted
+        wanted = self.session.view.wanted_camera
         if wanted is not None and wanted.pose is not None:
             return wanted.pose
         return self.canvas.pose if self._draws else None
 
     def _restore(self, pose: CameraPose | None) -> None:
-        self.session.camera_request.request(None if pose is None else Camera.at(pose))
+        self.session.view.request_camera(None if pose is None else Camera.at(pose))
 
     def _ready(self) -> bool:
         return self.canvas is not None

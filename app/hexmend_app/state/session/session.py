@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +38,6 @@ from hexmend_app.state.tasks.mesh_opener import MeshOpener
 from hexmend_app.state.tasks.mesh_saver import MeshSaver
 from hexmend_app.state.tasks.structure_finder import StructureFinder
 from hexmend_app.state.tasks.time_reader import TimeReader
-from hexmend_app.state.view.camera_request import CameraRequest
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.state.view.side_views import SideViews
 from hexmend_app.state.view.view_model import ViewModel
@@ -72,7 +71,6 @@ class Session(QObject):
     saved_cameras : SavedCameras
     feature_states : FeatureStates
     comparison_bases : ComparisonBases
-    camera_request : CameraRequest
     opener : MeshOpener
     time_reader : TimeReader
     structure_finder : StructureFinder
@@ -107,7 +105,6 @@ class Session(QObject):
         self.saved_cameras = SavedCameras(self)
         self.feature_states = FeatureStates(self)
         self.comparison_bases = ComparisonBases(document, self.history)
-        self.camera_request = CameraRequest(self)
         self.opener = MeshOpener(document, self)
         self.time_reader = TimeReader(document, self.timeline, self)
         self.structure_finder = StructureFinder(document, self)
@@ -118,22 +115,8 @@ class Session(QObject):
         self.saver = MeshSaver(document, self.saved_cameras, self)
         self.repairer, self.padder = MeshChanger(document, self), MeshChanger(document, self)
         self.commands = Commands(self)
-        #: Parts of session files by their names there, in the order in which they are restored.
-        self._saved: dict[str, Any] = {
-            "document": document,
-            "history": self.history,
-            "timeline": self.timeline,
-            "view": self.view,
-            "selection": self.selection,
-            "snapshots": self.snapshots,
-            "side_views": self.side_views,
-            "comparison": self.comparison,
-            "run_setup": self.run_setup,
-            "recipe_draft": self.recipe_draft,
-            "breakpoints": self.run,
-            "cameras": self.saved_cameras,
-            "features": self.feature_states,
-        }
+        # The parts that session files store, in the order in which they are restored.
+        self._saved: dict[str, Any] = {field.name: getattr(self, field.name) for field in fields(SessionData)}
         self._hex_sets: Mapping[str, np.ndarray] = {}  # of the mesh before the last change
         document.mesh_replaced.connect(self._drop_unknown_rules)
         document.mesh_replaced.connect(self.feature_states.forget_undeclared)
@@ -157,7 +140,7 @@ class Session(QObject):
             run.phase_changed, run.iterated, run.hit, run.ended, run.failed,
             timeline.extended, timeline.moved, timeline.playing_changed,
             self.selection.changed, self.side_views.wiped, self.comparison.progressed, self.run_setup.chosen,
-            self.node_sweep.changed, self.camera_request.requested,
+            self.node_sweep.changed, self.view.camera_wanted,
             opener.began, opener.progressed, opener.ended, opener.cancelled, opener.failed, opener.mesh_missing,
             self.time_reader.progressed, self.time_reader.ended,
             saver.began, saver.progressed, saver.ended, saver.failed,
@@ -247,7 +230,7 @@ class Session(QObject):
         if restored.wipe_position is not None:
             self.side_views.set_wiping(True)
             self.side_views.move_wipe(restored.wipe_position)
-        self.camera_request.request(metadata.scene.camera_of(metadata.panels[0]))
+        self.view.request_camera(metadata.scene.camera_of(metadata.panels[0]))
         self.saved_cameras.add_all(metadata.scene.cameras)
         if metadata.recipe is not None:
             self.recipe_draft.load(metadata.recipe)

@@ -34,7 +34,7 @@ _HEAD = 64
 
 @dataclass(frozen=True, eq=False)
 class SessionData:
-    """Data of all parts of a session; each part makes its data and restores itself from them."""
+    """Data of the parts of a session, by their names there; each part makes its data and restores itself from them."""
 
     document: DocumentData
     history: HistoryData
@@ -46,9 +46,9 @@ class SessionData:
     comparison: ComparisonData
     run_setup: RunSetupData
     recipe_draft: RecipeDraftData
-    breakpoints: Breakpoints
-    cameras: NamedCameras
-    features: dict[str, Any]  # encoded, by the names that `StatePart` gives them
+    run: Breakpoints
+    saved_cameras: NamedCameras
+    feature_states: dict[str, Any]  # encoded, by the names that `StatePart` gives them
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
@@ -60,7 +60,7 @@ class SessionData:
         self.selection.check(hexes, nodes)
         for snapshot in self.snapshots:
             snapshot.check(hexes, nodes)
-        for number, count in ((self.breakpoints.hex, hexes), (self.breakpoints.node, nodes)):
+        for number, count in ((self.run.hex, hexes), (self.run.node, nodes)):
             if not 0 <= (number or 0) < count:
                 raise ValueError(f"a breakpoint is at hex or node {number}, of which there are {count}")
         if not 0 <= (self.timeline or 0) < max(len(self.history.records), self.timeline is None):

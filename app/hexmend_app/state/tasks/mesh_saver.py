@@ -160,4 +160,4 @@ class MeshSaver(QObject):
     def _mark_saved(self, saving: SaveTask) -> None:
         """Mark the state as saved if its mesh is still open."""
         if self._document.mark_saved(saving.path, saving.recorded) and saving.data is not None:
-            self._cameras.mark_saved(saving.data.cameras)
+            self._cameras.mark_saved(saving.data.saved_cameras)

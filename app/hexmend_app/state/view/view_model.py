@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.appearance import Look, Measurement
+from hexmend_app.picture.camera import Camera
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
 from hexmend_app.picture.page import Page
@@ -64,6 +65,8 @@ class ViewModel(QObject):
     changed
     metric_wanted(name)
         Request to colour by a metric in its default range.
+    camera_wanted
+        `wanted_camera` is to be applied as soon as the view draws the open mesh.
 
     Attributes
     ----------
@@ -80,10 +83,13 @@ class ViewModel(QObject):
         Metric of the histogram; None if it is that of the colours.
     measuring : bool
         True while clicks in the view pick points to measure.
+    wanted_camera : Camera or None
+        Camera that the 3D view is to apply as soon as it draws the open mesh; None without a request.
     """
 
     changed = Signal()
     metric_wanted = Signal(str)
+    camera_wanted = Signal()
 
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
@@ -95,6 +101,7 @@ class ViewModel(QObject):
         self.rings = 1
         self.counted: str | None = None
         self.measuring = False
+        self.wanted_camera: Camera | None = None
         self._dug: list[int] = []  # in the order of digging
         document.mesh_replaced.connect(self.show_all)
         document.mesh_replaced.connect(self.end_measuring)
@@ -144,6 +151,11 @@ class ViewModel(QObject):
     def colour_by(self, metric: str) -> None:
         """Request to colour by a metric or a displacement in its default range."""
         self.metric_wanted.emit(metric)
+
+    def request_camera(self, camera: Camera | None) -> None:
+        """Request a camera for the 3D view."""
+        self.wanted_camera = camera
+        self.camera_wanted.emit()
 
     def store_remaining_hexes(self, left: np.ndarray | None) -> None:
         """Store the hexes kept by a cut by whole hexes, (m,) bool, so that they stay the same while nodes move."""

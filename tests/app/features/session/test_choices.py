@@ -81,5 +81,5 @@ def test_an_invalid_session_is_rejected_and_the_open_mesh_stays(window, qtbot, t
 def test_an_invalid_part_of_a_feature_is_left_out(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     for place, field, value, said in INVALID:
-        open_and_wait(qtbot, window, written(path, ("features", place), field, value))
+        open_and_wait(qtbot, window, written(path, ("feature_states", place), field, value))
         qtbot.waitUntil(lambda said=said: any(said in message[2] for message in window.messages.messages()))

@@ -100,7 +100,7 @@ def test_cameras_are_read_from_a_file_and_errors_name_the_camera(session, tmp_pa
     save_and_wait(session, path)
     assert cameras_of(path) == {"front": X, "top": Y}
     data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["cameras"]["named"]["front"]["from"] = "beneath"
+    data["window"]["saved_cameras"]["named"]["front"]["from"] = "beneath"
     write_archive(path, "Hexmend session", VERSION, data)
     with pytest.raises(FileError, match=r"work\.hexmend: has invalid cameras: .*front.* from = 'beneath' is unknown"):
         cameras_of(path)
