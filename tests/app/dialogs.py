@@ -8,7 +8,7 @@ from hexmend_app.features.pad.feature import PadDialog
 from hexmend_app.shell.command_palette import CommandPalette, choice_entries, command_entries
 from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.window import Window
-from hexmend_app.widgets.dialogs.waiting import waiting_dialog
+from hexmend_app.widgets.dialogs.questions import waiting_dialog
 
 
 def _pad(window: Window) -> QDialog:

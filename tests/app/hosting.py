@@ -7,7 +7,7 @@ from hexmend_app.feature import Action, Feature
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session.session import Session
 from hexmend_app.widgets.busy import Busy
-from hexmend_app.widgets.dialogs.waiting import wait_until
+from hexmend_app.widgets.dialogs.questions import wait_until
 from hexmend_app.widgets.message_bar import MessageBar
 
 

@@ -217,7 +217,7 @@ class Window(QMainWindow):
 
         Return True when it is over or the user pressed `leave`; False if the user cancelled.
         """
-        from hexmend_app.widgets.dialogs.waiting import wait_until
+        from hexmend_app.widgets.dialogs.questions import wait_until
 
         return wait_until(self, text, over, leave)
 

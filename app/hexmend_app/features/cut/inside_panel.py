@@ -10,7 +10,7 @@ from hexmend_app.scene.geometry.skin import WHOLE
 from hexmend_app.theme.style import check_box, icon_button, narrow, push_button, set_help, small_label, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import form_layout, row_of
-from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
+from hexmend_app.widgets.inputs.combo import FocusedWheel
 from hexmend_app.widgets.wording import counted
 
 _MAX_SHRINK = 60  # per cent

@@ -13,8 +13,7 @@ from superqt import QFlowLayout
 
 from hexmend_app.features.histogram.distributions import Shown, ShownHistogram, bin_colours, range_summary
 from hexmend_app.features.histogram.head import HistogramHead
-from hexmend_app.features.histogram.histogram_plot import HistogramPlot
-from hexmend_app.features.histogram.range_row import RangeRow
+from hexmend_app.features.histogram.histogram_plot import HistogramPlot, RangeRow
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.distribution import Axis, Distribution
 from hexmend_app.scene.colour.colouring import Colouring

@@ -17,7 +17,7 @@ from hexmend_app.features.open.welcome import RecentMenu, Welcome, card
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture
-from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.state.settings.settings import RecentFiles
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QVBoxLayo
 
 from hexmend.doctor import Finding
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.state.settings.settings import RecentFiles
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import icon, set_help, set_variant, tint

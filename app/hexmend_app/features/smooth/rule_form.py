@@ -22,8 +22,7 @@ from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import set_help, show_text, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
-from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
+from hexmend_app.widgets.inputs.combo import ComboBox, FocusedWheel, let_shrink
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted
 

@@ -1,4 +1,4 @@
-"""Settings that are stored between starts: keys, types and defaults."""
+"""Settings that are stored between starts: keys, types and defaults; and the recent files."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from typing import Annotated, Any, Generic, TypeVar
 
 import msgspec
 from msgspec import Meta
-from PySide6.QtCore import QByteArray, QSettings
+from PySide6.QtCore import QByteArray, QObject, QSettings, Signal
 
 T = TypeVar("T")
+#: Maximum number of files.
+MAX_RECENT_FILES = 10
 
 
 @dataclass(frozen=True)
@@ -75,17 +77,53 @@ _Positive = Annotated[int, Meta(ge=1)]
 
 #: Position and size of the window, and the layout of its panels.
 GEOMETRY = Setting("geometry", QByteArray(), QByteArray)
+
 PANELS: Setting[dict[str, Any]] = Setting("panels", {}, dict[str, Any])
+
 #: One of `hexmend_app.theme.theme_choice.ThemeChoice`.
 THEME = Setting("theme", "desktop", str)
+
 #: Recently opened files, newest first.
 RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), tuple[Path, ...], is_json=True)
+
 #: Folder of the last opened or saved file, in which file dialogs start; the default if there was none.
 FOLDER = Setting("folder", Path(), Path, is_json=True)
+
 #: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _Positive)
+
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _Positive)
+
 #: Runs wait until each iteration is shown.
 EVERY_ITERATION = Setting("every_iteration", False, bool)
+
 #: Key figures are shown in the view.
 KEY_FIGURES = Setting("key_figures", True, bool)
+
+
+class RecentFiles(QObject):
+    """Recently opened files, newest first.
+
+    Signals
+    -------
+    changed
+    """
+
+    changed = Signal()
+
+    def files(self) -> list[Path]:
+        """Return the files, whether they still exist or not."""
+        return list(RECENT.get())
+
+    def add(self, path: Path) -> None:
+        """Add a file that was opened."""
+        path = path.resolve()
+        self._store([path, *(other for other in self.files() if other != path)][:MAX_RECENT_FILES])
+
+    def clear(self) -> None:
+        """Clear the list."""
+        self._store([])
+
+    def _store(self, files: list[Path]) -> None:
+        RECENT.set(tuple(files))
+        self.changed.emit()

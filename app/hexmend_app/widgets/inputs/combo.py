@@ -1,17 +1,28 @@
-"""Combo boxes in narrow panels."""
+"""Combo boxes in narrow panels, and wheel events of inputs in panels that scroll."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPaintEvent, QPalette
+from PySide6.QtGui import QPaintEvent, QPalette, QWheelEvent
 from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePainter
 
 #: Pixels between the icon and the text of a combo box.
 _ICON_GAP = 4
 #: Pixels that a list is wider than its texts.
 _LIST_MARGIN = 8
+
+
+class FocusedWheel:
+    """Base of inputs that ignore the wheel unless focused, so that scrolling a panel does not change their values."""
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Change the value if the input has the focus."""
+        if self.hasFocus():  # type: ignore[attr-defined]  # of the widget that this is mixed into
+            super().wheelEvent(event)  # type: ignore[misc]
+        else:
+            event.ignore()
 
 
 class ComboBox(QComboBox):

@@ -7,8 +7,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
 from hexmend.parameters import Parameter
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
-from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
+from hexmend_app.widgets.inputs.combo import ComboBox, FocusedWheel, let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.wording import name_in_words
 

@@ -12,7 +12,7 @@ from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.style import set_variant, tabular
 from hexmend_app.translation import tr
-from hexmend_app.widgets.inputs.focused_wheel import FocusedWheel
+from hexmend_app.widgets.inputs.combo import FocusedWheel
 from hexmend_app.widgets.wording import short_number
 
 

@@ -20,7 +20,7 @@ from hexmend_app.picture import Cut, PicturePanel, Scene, WipeLayout, write_scen
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
+from hexmend_app.state.settings.settings import MAX_RECENT_FILES
 from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
 from hexmend_app.state.view.side_views import Wipe
