@@ -139,11 +139,13 @@ class Run(Iterator[Iteration]):
             self._stage_runs.append(stage_run)
         self._end_if_done()
 
-    def close(self) -> None:
-        """End the run after the newest iteration; it keeps its result."""
+    def close(self, keep_last: bool = False) -> None:
+        """End the run after the newest iteration; it keeps its result, or with `keep_last` that iteration."""
         if self.last.number >= len(self.history):  # Ctrl-C came before the iteration was recorded
             self.history.append(self.last.row())
         if self.outcome is None:
+            if keep_last and self.best is not self.last:
+                self._stage_run.set_limits(replace(self._stage_run.stage.stop, keep_last=True))
             if self._stage_run.outcome is None:
                 self._stage_run.end(Outcome.STOPPED)
             self.outcome = Outcome.STOPPED

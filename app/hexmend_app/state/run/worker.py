@@ -164,9 +164,9 @@ class Worker:
                 if iteration is not None:
                     self._record(iteration)
                     self._report(iteration, self._hit(before, iteration))
-            if run.outcome is None:
-                self._keep_last(run)
-            run.close()
+            if run.outcome is None and run.best is not run.last:
+                self.better = run.best.number
+            run.close(keep_last=True)
             if run.best is not run.last:
                 self._report(run.best)
             result = run.result()
@@ -175,13 +175,6 @@ class Worker:
             return result
         finally:
             self.prepared.set()
-
-    def _keep_last(self, run: Run) -> None:
-        """Let the user's stop keep the last iteration, and note the one that the method would keep."""
-        if run.best is not run.last:
-            self.better = run.best.number
-            run.switch_method(run.stage.smoother, replace(run.stage.stop, keep_last=True))
-            run.decisions.pop()  # which is no decision about the method
 
     def _hit(self, before: Iteration, iteration: Iteration) -> BreakpointHit | None:
         """Return the breakpoint that an iteration reaches, and pause; None if it reaches none."""
