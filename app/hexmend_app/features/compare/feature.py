@@ -174,10 +174,7 @@ class FeatureCompare(Feature):
 
     def run(self) -> None:
         """Run the selected methods; with invalid limits, show them."""
-        self.session.run_setup.use(self._start)
-
-    def _start(self, stage: Stage) -> None:
-        if self._runnable:
+        if (stage := self.session.run_setup.checked_stage()) is not None and self._runnable:
             names = [name for name in METHODS if name in self.panel.model.ticks]
             smoothers = [self.session.run_setup.smoother_of(name) for name in names]
             self.session.commands.when_memory_suffices(smoothers, lambda: self._compare(smoothers, stage))

@@ -14,16 +14,7 @@ from hexmend.quality import Metric
 from hexmend_app.state.mesh.inspection import HexDetails, NodeDetails
 from hexmend_app.theme.palette import INVERTED_TEXT, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import (
-    bold,
-    check_box,
-    on_theme_change,
-    push_button,
-    set_help,
-    small_label,
-    tabular,
-    tint,
-)
+from hexmend_app.theme.style import bold, check_box, on_theme_change, push_button, set_help, small_label, tabular, tint
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text

@@ -91,8 +91,8 @@ class RecipePanel(QWidget):
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
         self._load.setMenu(self._menu)
-        self._add.clicked.connect(lambda: setup.use(self._add_stage))
-        self._replace.clicked.connect(lambda: setup.use(lambda stage: draft.replace(self._list.currentRow(), stage)))
+        self._add.clicked.connect(self._add_stage)
+        self._replace.clicked.connect(self._replace_stage)
         self._up.clicked.connect(lambda: self._move(-1))
         self._down.clicked.connect(lambda: self._move(1))
         self._remove.clicked.connect(lambda: draft.remove(self._list.currentRow()))
@@ -163,9 +163,14 @@ class RecipePanel(QWidget):
         self._editable = editable
         self._enable()
 
-    def _add_stage(self, stage: Stage) -> None:
-        self._draft.add(stage)
-        self.select(len(self._draft.stages) - 1)
+    def _add_stage(self) -> None:
+        if (stage := self._setup.checked_stage()) is not None:
+            self._draft.add(stage)
+            self.select(len(self._draft.stages) - 1)
+
+    def _replace_stage(self) -> None:
+        if (stage := self._setup.checked_stage()) is not None:
+            self._draft.replace(self._list.currentRow(), stage)
 
     def _edit(self, item: QListWidgetItem) -> None:
         if self._editable:

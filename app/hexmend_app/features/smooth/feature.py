@@ -12,15 +12,7 @@ from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
-from hexmend_app.feature import (
-    Action,
-    ButtonAppearance,
-    Feature,
-    Host,
-    Panel,
-    PanelPlace,
-    StatePart,
-)
+from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.run_states import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
@@ -115,7 +107,7 @@ class FeatureSmooth(Feature):
             menu="Smooth",
             section=3,
             help=tr("Copy the hexmend smooth command with this method, its parameters, limits and rules of motion."),
-            handle=lambda: self.session.run_setup.use(self._copy_command),
+            handle=self._copy_command,
             enabled=lambda: self._ready() and self.session.document.path is not None,
         )
 
@@ -163,24 +155,19 @@ class FeatureSmooth(Feature):
         phase, setup = self._smoothing.phase, self.session.run_setup
         if phase is Phase.RUNNING:
             self._smoothing.pause()
-        elif phase is Phase.PAUSED:
-            setup.use(self._resume)
-        elif self._state().run:
-            setup.use(self.session.commands.run)
+        elif self._state().run and (stage := setup.checked_stage()) is not None:
+            if phase is Phase.PAUSED:
+                self._change(stage)
+                self._smoothing.resume()
+            else:
+                self.session.commands.run(stage)
 
     def step(self) -> None:
         """Run the number of iterations of a step, if the state of the run allows it."""
-        if self._state().step:
-            self.session.run_setup.use(self._step)
-
-    def _resume(self, stage: Stage) -> None:
-        self._change(stage)
-        self._smoothing.resume()
-
-    def _step(self, stage: Stage) -> None:
-        if self._smoothing.phase is Phase.PAUSED:
-            self._change(stage)
-        self.session.commands.step(stage, self.panel.steps)
+        if self._state().step and (stage := self.session.run_setup.checked_stage()) is not None:
+            if self._smoothing.phase is Phase.PAUSED:
+                self._change(stage)
+            self.session.commands.step(stage, self.panel.steps)
 
     def _change(self, stage: Stage) -> None:
         """Continue the paused run with a stage, if it differs from the active one."""
@@ -265,8 +252,10 @@ class FeatureSmooth(Feature):
         self._smoothing.show_every(on)
         settings.EVERY_ITERATION.set(on)
 
-    def _copy_command(self, stage: Stage) -> None:
-        """Copy the command that runs a stage on the file of the mesh."""
+    def _copy_command(self) -> None:
+        """Copy the command that runs the stage on the file of the mesh."""
+        if (stage := self.session.run_setup.checked_stage()) is None:
+            return
         path = self.session.document.path
         output = path.with_name(f"{self.host.default_file_stem}-smoothed{path.suffix or '.vtu'}")
         command = smooth_command(stage, str(path), str(output), RunOptions(self.session.run_setup.rules))

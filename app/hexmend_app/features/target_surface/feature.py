@@ -65,7 +65,7 @@ class FeatureTargetSurface(Feature):
             raise task.error
         commands.slide_on(task.result, path)
         self._show(True)
-        self.session.run_setup.use(self._let_slide)
+        self._let_slide()
         self.host.messages.show_info(tr("The boundary slides on {name}.", name=path.name))
         return True
 
@@ -77,10 +77,11 @@ class FeatureTargetSurface(Feature):
         view = self.session.view
         view.change(structure=view.look.structure.switched("target", on))
 
-    def _let_slide(self, stage: Stage) -> None:
+    def _let_slide(self) -> None:
         """Set the boundary of the selected method to slide."""
-        smoother = stage.smoother
-        if smoother.slides or "boundary" not in {one.name for one in declared(smoother)}:
+        setup = self.session.run_setup
+        stage = setup.checked_stage()
+        if stage is None or stage.smoother.slides or "boundary" not in {one.name for one in declared(stage.smoother)}:
             return
-        stage = Stage(replace(smoother, boundary="slide"), stage.stop)  # type: ignore[call-arg]
-        self.session.run_setup.choose(stage, tr("The boundary is now set to slide."))
+        stage = Stage(replace(stage.smoother, boundary="slide"), stage.stop)  # type: ignore[call-arg]
+        setup.choose(stage, tr("The boundary is now set to slide."))

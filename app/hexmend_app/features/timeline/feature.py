@@ -125,8 +125,12 @@ class FeatureTimeline(Feature):
             lambda: timeline.pause() if timeline.playing else timeline.play(),
             lambda: timeline.step(1),
             timeline.go_to_newest,
-            lambda: self.session.run_setup.use(self.session.commands.branch),
+            self._branch,
         )
+
+    def _branch(self) -> None:
+        if (stage := self.session.run_setup.checked_stage()) is not None:
+            self.session.commands.branch(stage)
 
     def _set_limit(self, megabytes: int) -> None:
         self.session.history.limit = megabytes << 20

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -143,9 +143,8 @@ class RunSetup(QObject):
         """Return a method with the values that were last set for it."""
         return METHODS[method](**self.values_of(method))
 
-    def use(self, function: Callable[[Stage], object]) -> None:
-        """Call a function with the stage; if a value is invalid, emit `refused`, for forms to show which."""
+    def checked_stage(self) -> Stage | None:
+        """Return the stage; if a value is invalid, emit `refused`, for forms to show which, and return None."""
         if self.stage is None:
             self.refused.emit()
-        else:
-            function(self.stage)
+        return self.stage
