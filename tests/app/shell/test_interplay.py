@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.feature import MENUS
 from hexmend_app.picture import Box, Cut, Plane
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import MeasuredMesh
 from scripts.write_keys import as_markdown
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
 from tests.app.features.cut.test_cut import seen_at
@@ -126,7 +126,7 @@ def test_an_iteration_is_drawn_at_once_and_panels_follow(window, qtbot, monkeypa
     monkeypatch.setattr(window.features["help"], "refresh", lambda: calls.append("panels"))
     monkeypatch.setattr(run, "iterating", True)
     for _ in range(2):
-        document.preview(State.of(document.now.mesh))
+        document.preview(MeasuredMesh.of(document.now.mesh))
         run.iterated.emit(None)
     assert calls == ["view", "view"]
     qtbot.waitUntil(lambda: len(calls) > 2)

@@ -67,9 +67,11 @@ class OutcomePanel(QWidget):
 
     def show_hint(self, hint: str = "") -> None:
         """Show a hint instead of an outcome; by default what this panel is for."""
-        self._advice, self._hint = None, hint or tr(_HINT)
-        self._show_suggestions(())
-        self._show()
+        hint = hint or tr(_HINT)
+        if self._advice is not None or hint != self._hint:
+            self._advice, self._hint = None, hint
+            self._show_suggestions(())
+            self._show()
 
     def show_advice(self, title: str, advice: Advice, ids: np.ndarray | None = None) -> None:
         """Explain the end of a run; `ids` (m,) are the numbers of the hexes in the file, if it has some."""
