@@ -7,7 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject, QTimer, QVariantAnimation, Signal
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose_history import PoseHistory
 from hexmend_app.scene.camera.vtk_pose import pose_of

@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
-from hexmend_app.picture.camera_pose import CameraPose, Vector
+from hexmend_app.picture.camera import CameraPose, Vector
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera import steering
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of

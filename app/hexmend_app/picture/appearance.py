@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.conversion import ConfigTable, option
-from hexmend_app.picture.camera_pose import Vector
+from hexmend_app.picture.camera import Vector
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES

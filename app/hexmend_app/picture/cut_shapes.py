@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.conversion import ConfigTable, option
-from hexmend_app.picture.camera_pose import Vector
+from hexmend_app.picture.camera import Vector
 
 #: Angle in degrees within which a plane that is rotated by hand snaps to an axis.
 SNAP = 8.0

@@ -13,7 +13,7 @@ from hexmend.report.documents import write_documents
 from hexmend.report.tables import Table
 from hexmend_app.picture import Camera, Colours, Cut, PicturePanel, Plane, Scene, TextPlace
 from hexmend_app.picture.appearance import Traces
-from hexmend_app.picture.camera_pose import Vector
+from hexmend_app.picture.camera import Vector
 from hexmend_app.picture.colours import colour_quantity
 from hexmend_app.picture.cut import CutStyle
 from hexmend_app.picture.displacement import DISPLACEMENT_QUANTITIES

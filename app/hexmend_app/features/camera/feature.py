@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, Feature, Host, StatePart, always
 from hexmend_app.picture import Camera, camera_from, camera_text
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.translation import tr

@@ -11,8 +11,7 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QTabBar, QWidget
 
-from hexmend_app.features.cut.number_row import NumberRow
-from hexmend_app.features.cut.plane_editor import PlaneEditor
+from hexmend_app.features.cut.plane_editor import NumberRow, PlaneEditor
 from hexmend_app.picture.cut import PLANE_KINDS, Cut, CutKind, CutStyle, proposed_cuts
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Sphere
 from hexmend_app.theme.style import check_box, icon_button, push_button, set_help

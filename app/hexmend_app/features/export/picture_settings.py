@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError, ParameterError
-from hexmend_app.features.export.export_settings import ExportSettings
-from hexmend_app.features.export.size_form import SizeForm
+from hexmend_app.features.export.export_settings import ExportSettings, SizeForm
 from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged

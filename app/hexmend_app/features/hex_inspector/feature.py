@@ -8,8 +8,7 @@ from pathlib import Path
 from hexmend.boundary import NodeClass
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
-from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
-from hexmend_app.features.hex_inspector.worst_model import write_worst
+from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 
 #: Distance of the camera from a hex, at which its neighbours are visible too, and from a patch of hexes, in radii of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 
 #: Maximum number of poses in the history, including the current one.
 MAX_POSES = 50

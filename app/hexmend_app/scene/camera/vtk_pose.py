@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 
 
 def pose_of(camera: vtkCamera, axis: str = "z") -> CameraPose:

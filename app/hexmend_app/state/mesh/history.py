@@ -1,4 +1,4 @@
-"""History of the runs on the open mesh: the quality of every iteration, and node positions up to a memory limit."""
+"""History of the runs on the open mesh: quality and node positions of iterations, and states to compare it with."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ import numpy as np
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import printable
-from hexmend_app.state.mesh.document import OWN_PARTS, Command, MeasuredMesh
-from hexmend_app.state.mesh.history_data import HistoryData, to_data
-from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
+from hexmend_app.picture.appearance import FILE_OPENED, Since
+from hexmend_app.picture.displacement import Displacement, ReferenceState
+from hexmend_app.state.mesh.document import OWN_PARTS, Command, Document, MeasuredMesh
+from hexmend_app.state.mesh.run_record import CONSTANT, HistoryData, RecordedIteration, RunRecord, record_data
 from hexmend_app.state.settings.settings import HISTORY_MEGABYTES
+from hexmend_app.translation import tr
 
 #: Default limit of the memory of positions in bytes: 400 iterations of 110,000 hexes.
 LIMIT = HISTORY_MEGABYTES.default << 20
@@ -128,7 +130,7 @@ class History:
         with self._lock:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
-            records = tuple(to_data(record, at, record._offsets) for record in started)
+            records = tuple(record_data(record, at, record._offsets) for record in started)
         iterations = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
         shown = [(state, at[one.record], one.number) for state, one in iterations if one and one.record in at]
         return HistoryData(records, tuple(shown))
@@ -245,6 +247,55 @@ def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> MeasuredMe
 
 def _same_own_parts(mesh: Mesh, other: Mesh) -> bool:
     return all(getattr(mesh, part) is getattr(other, part) for part in OWN_PARTS)
+
+
+class ComparisonBases:
+    """Computes displacements from earlier states to the current one; the last is cached.
+
+    Parameters
+    ----------
+    document : Document
+    records : History
+    """
+
+    def __init__(self, document: Document, records: History):
+        self._document, self._history = document, records
+        self._last: tuple[tuple, Displacement] | None = None
+        self._reference: tuple[MeasuredMesh, ReferenceState] | None = None
+        self._iteration: tuple[RecordedIteration, MeasuredMesh] | None = None
+
+    def displacement(self, since: Since) -> Displacement:
+        """Return the displacement from an earlier state to the one shown."""
+        now = self._document.now
+        shown = self._history.iteration_of(now)
+        key = (now, since, shown)
+        if self._last is None or self._last[0] != key:
+            reference = self._reference_state(*self._find(since, shown))
+            self._last = key, Displacement(self._document.start.mesh, reference, now.mesh.points, now.quality)
+        return self._last[1]
+
+    def _reference_state(self, state: MeasuredMesh, name: str) -> ReferenceState:
+        """Return the reference of a state; the last is cached, as it caches data of its surface."""
+        if self._reference is None or self._reference[0] is not state or self._reference[1].name != name:
+            self._reference = state, ReferenceState(state.mesh.points, state.quality, name)
+        return self._reference[1]
+
+    def _find(self, since: Since, shown: RecordedIteration | None) -> tuple[MeasuredMesh, str]:
+        """Return the earlier state and its name; `shown` is the iteration that the document shows."""
+        if since is Since.OPENED or shown is None:
+            return self._document.start, FILE_OPENED
+        record = shown.record
+        if since is Since.ITERATION and shown.number:
+            numbers = self._history.recorded_numbers(record)
+            before = RecordedIteration(record, int(numbers[numbers < shown.number].max()))
+            if before.number:
+                return self._state(before), before.name
+        return record.start, CONSTANT if record.holds_times else tr("{run} started", run=record.name)
+
+    def _state(self, iteration: RecordedIteration) -> MeasuredMesh:
+        if self._iteration is None or self._iteration[0] != iteration:
+            self._iteration = iteration, self._history.state(iteration, self._document.now.mesh)
+        return self._iteration[1]
 
 
 __all__ = ["LIMIT", "History", "RecordedIteration", "RunRecord"]

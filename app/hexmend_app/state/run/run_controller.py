@@ -19,7 +19,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
-from hexmend_app.state.run.run_settings import rules_text, settings_text
+from hexmend_app.state.run.run_setup import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
 #: Milliseconds between two checks of the mailbox.

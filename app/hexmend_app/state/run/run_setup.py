@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,9 +11,9 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.named_sets import set_names
-from hexmend.parameters import from_values
+from hexmend.parameters import Parametrised, declared, from_values
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import Stage
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
 
@@ -148,3 +148,45 @@ class RunSetup(QObject):
         if self.stage is None:
             self.refused.emit()
         return self.stage
+
+
+def settings_text(work: Smoother | Recipe, stop: StoppingCriteria | None = None) -> str:
+    """Return the values of a run that differ from the defaults; "" if none does.
+
+    Parameters
+    ----------
+    work : Smoother or Recipe
+    stop : StoppingCriteria, optional
+        None for a recipe, whose stages have their own.
+
+    Examples
+    --------
+    >>> from hexmend.smoothers import METHODS
+    >>> settings_text(METHODS["mend"](p=1, boundary="slide"), StoppingCriteria(max_iterations=20))
+    'boundary=slide, p=1, max_iterations=20'
+    >>> settings_text(Recipe.of("getme", METHODS["local-sd"](p=4)))
+    'getme; local-sd p=4'
+    """
+    if not isinstance(work, Recipe):
+        return ", ".join([*_changed(work), *_changed(stop or StoppingCriteria())])
+    return "; ".join(f"{one.smoother.name} {settings_text(one.smoother, one.stop)}".strip() for one in work.stages)
+
+
+def rules_text(rules: MotionRules) -> str:
+    """Return rules of motion as text; "" without rules.
+
+    >>> rules_text(MotionRules("slide", fix=("inlet", "outlet"), periodic=(("left", "right"),)))
+    'interfaces=slide, fix=inlet outlet, periodic=left:right'
+    """
+    texts = []
+    for key, value in rules.values().items():
+        names = [value] if isinstance(value, str) else [one if isinstance(one, str) else ":".join(one) for one in value]
+        texts.append(f"{key}={' '.join(names)}")
+    return ", ".join(texts)
+
+
+def _changed(values: Parametrised) -> Iterator[str]:
+    for one in declared(values):
+        value = getattr(values, one.name)
+        if value != one.default:
+            yield f"{one.name}={value:g}" if isinstance(value, float) else f"{one.name}={value}"

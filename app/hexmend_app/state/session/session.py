@@ -14,9 +14,8 @@ from hexmend.doctor import examine
 from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture.colours import MATERIAL
-from hexmend_app.state.mesh.comparison_base import ComparisonBases
 from hexmend_app.state.mesh.document import Document
-from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.history import ComparisonBases, History
 from hexmend_app.state.mesh.selection import Selection
 from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.node_step import explain

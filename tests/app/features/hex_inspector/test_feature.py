@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QTableView
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
-from hexmend_app.features.hex_inspector.worst_list import WorstList
-from hexmend_app.features.hex_inspector.worst_model import ID, write_worst
+from hexmend_app.features.hex_inspector.worst_list import ID, WorstList, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from hexmend_app.widgets.action_button import ActionButton

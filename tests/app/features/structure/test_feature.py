@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from hexmend import Cells, Mesh, gallery, io
-from hexmend_app.features.structure.structure_panel import StructurePanel
+from hexmend_app.features.structure.feature import StructurePanel
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.picture.page import Page

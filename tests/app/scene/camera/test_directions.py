@@ -11,8 +11,7 @@ from PySide6.QtGui import QKeyEvent
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.canvas.camera_view import move_of
-from hexmend_app.picture.camera import DIRECTIONS
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import DIRECTIONS, CameraPose
 from hexmend_app.scene.camera.directions import UPS, look_from
 from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose_history import PoseHistory

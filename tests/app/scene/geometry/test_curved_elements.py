@@ -8,7 +8,7 @@ from hexmend.mesh.second_order import NODE_POSITIONS
 from hexmend.mesh.second_order.curved_geometry import QUAD_POSITIONS, evaluate_quads, grid, hex_nodes, quad_nodes
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.geometry.coloured_polygons import hexes_of
 from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, evaluate_hexes, quad_normals

@@ -9,7 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from hexmend import Cells, Mesh
 from hexmend_app.picture import Cut, Isolate, Show
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.picture.colour_map import COLOUR_MAPS
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.camera.vtk_pose import apply_pose
