@@ -9,9 +9,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from hexmend_app.feature import Action
-from hexmend_app.shell.keys import tables
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
+from hexmend_app.shell.window_actions import tables
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "keys.md"
 

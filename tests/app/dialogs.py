@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QDialog
 
 from hexmend_app.features.pad.feature import PadDialog
 from hexmend_app.shell.command_palette import CommandPalette, choice_entries, command_entries
-from hexmend_app.shell.keys import KeysPage
 from hexmend_app.shell.window import Window
+from hexmend_app.shell.window_actions import KeysPage
 from hexmend_app.widgets.dialogs.questions import waiting_dialog
 
 

@@ -9,8 +9,7 @@ from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.conversion import option
 from hexmend_app.picture.appearance import Look
-from hexmend_app.picture.camera import MAX_PANELS, Camera, CameraPose, PicturePanel
-from hexmend_app.picture.named_cameras import MAX_CAMERAS
+from hexmend_app.picture.camera import MAX_CAMERAS, MAX_PANELS, Camera, CameraPose, PicturePanel
 from hexmend_app.picture.page import AxesStyle, ColourBarStyle
 
 #: Number of the current format; lower numbers can be read.

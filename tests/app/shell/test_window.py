@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QScrollArea, QSpi
 
 from hexmend.quality import METRICS
 from hexmend_app.picture.colours import Range
-from hexmend_app.shell.keys import KeysPage, name_of
 from hexmend_app.shell.start.program import report_unexpected_errors
+from hexmend_app.shell.window_actions import KeysPage, name_of
 from hexmend_app.widgets.section import Section
 from tests.app.canvas.test_shading_task import rested
 from tests.app.driving import named, pixels

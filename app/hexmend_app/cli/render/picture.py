@@ -16,8 +16,8 @@ from hexmend_app.cli import scene_options
 from hexmend_app.cli.numbers import invalid_value, numbers, page_size
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, write_scene
+from hexmend_app.picture.camera import cameras_of
 from hexmend_app.picture.displacement import Displacement, ReferenceState
-from hexmend_app.picture.named_cameras import cameras_of
 from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page, format_of

@@ -12,8 +12,7 @@ from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QLineEdit, QVBox
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.features.export.export_settings import ExportSettings, SizeForm
 from hexmend_app.picture import Camera, PicturePanel, Scene, read_scene, write_scene
-from hexmend_app.picture.camera import DIRECTIONS
-from hexmend_app.picture.named_cameras import merged
+from hexmend_app.picture.camera import DIRECTIONS, merged
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import push_button, set_help
 from hexmend_app.translation import tr

@@ -18,7 +18,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, measure
 from hexmend.report.documents import write_text
 from hexmend_app.codec.checks import check_known
-from hexmend_app.state.mesh.worst_hexes import WorstHexes
+from hexmend_app.state.mesh.selection import WorstHexes
 from hexmend_app.theme.palette import INVERTED_TEXT
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import check_box, icon_button, labelled, set_help, small_label

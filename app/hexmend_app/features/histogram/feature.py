@@ -21,7 +21,7 @@ from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
-from hexmend_app.state.mesh.snapshots import Snapshot
+from hexmend_app.state.view.side_views import Snapshot
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
 

@@ -20,8 +20,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.run.recipe import Recipe, Stage
 from hexmend_app.feature import ChangeTracker
-from hexmend_app.state.run.recipe_draft import RecipeDraft
-from hexmend_app.state.run.run_setup import RunSetup, settings_text
+from hexmend_app.state.run.run_setup import RecipeDraft, RunSetup, settings_text
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import icon_button, labelled, push_button, set_help, small_label
 from hexmend_app.translation import tr

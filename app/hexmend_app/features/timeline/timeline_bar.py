@@ -92,9 +92,9 @@ class TimelineBar(QWidget):
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
         set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
-        steps, branch = [self._buttons[name] for name in _STEPS], self._buttons["branch"]
-        ends: tuple[Part, ...] = (4, (self.slider, 1), 4, self._at, branch, self._more)
-        fill(QHBoxLayout(self), self.run_bar, 8, self.runs, 4, *steps, *ends, margins=(8, 0, 8, 0), spacing=4)
+        parts: list[Part] = [self.run_bar, 8, self.runs, 4, *(self._buttons[name] for name in _STEPS)]
+        parts += [4, (self.slider, 1), 4, self._at, self._buttons["branch"], self._more]
+        fill(QHBoxLayout(self), *parts, margins=(8, 0, 8, 0), spacing=4)
         self.set_runs(())
 
     def resizeEvent(self, event: QResizeEvent) -> None:

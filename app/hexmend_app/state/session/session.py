@@ -17,14 +17,12 @@ from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import ComparisonBases, History
 from hexmend_app.state.mesh.selection import Selection
-from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.node_step import explain
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import Comparison
 from hexmend_app.state.run.node_sweep import NodeSweep
-from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import RunController
-from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.state.run.run_setup import RecipeDraft, RunSetup
 from hexmend_app.state.run.timeline import Timeline
 from hexmend_app.state.session.commands import Commands
 from hexmend_app.state.session.restored_picture import RestoredPicture
@@ -38,7 +36,7 @@ from hexmend_app.state.tasks.mesh_saver import MeshSaver
 from hexmend_app.state.tasks.structure_finder import StructureFinder
 from hexmend_app.state.tasks.time_reader import TimeReader
 from hexmend_app.state.view.saved_cameras import SavedCameras
-from hexmend_app.state.view.side_views import SideViews
+from hexmend_app.state.view.side_views import SideViews, Snapshots
 from hexmend_app.state.view.view_model import ViewModel
 
 

@@ -16,16 +16,14 @@ from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec.conversion import Hooks, decode, encode
 from hexmend_app.formats.session import SUFFIX, is_session
 from hexmend_app.formats.session.session_file import read_session, write_session
-from hexmend_app.picture.named_cameras import NamedCameras
+from hexmend_app.picture.camera import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, MeasuredMesh
 from hexmend_app.state.mesh.history import HistoryData
 from hexmend_app.state.mesh.selection import SelectionData
-from hexmend_app.state.mesh.snapshots import Snapshot
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import ComparisonData
-from hexmend_app.state.run.recipe_draft import RecipeDraftData
-from hexmend_app.state.run.run_setup import RunSetupData
-from hexmend_app.state.view.side_views import SideViewsData
+from hexmend_app.state.run.run_setup import RecipeDraftData, RunSetupData
+from hexmend_app.state.view.side_views import SideViewsData, Snapshot
 from hexmend_app.state.view.view_model import ViewData
 
 #: First bytes of a session file.

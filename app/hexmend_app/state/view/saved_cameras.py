@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.picture.camera import Camera
-from hexmend_app.picture.named_cameras import NamedCameras, merged
+from hexmend_app.picture.camera import Camera, NamedCameras, merged
 
 
 class SavedCameras(QObject):

@@ -11,7 +11,7 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import ID, WorstList, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
-from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
+from hexmend_app.state.mesh.selection import MAX_LISTED
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.wording import figure

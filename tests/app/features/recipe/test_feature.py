@@ -7,9 +7,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog, QLineEdit, QListWidget, QPushButton
 
 from hexmend import METHODS, Recipe, Stage, StoppingCriteria, read_recipe, smooth
-from hexmend_app.state.run.recipe_draft import RecipeDraft
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.state.run.run_setup import RecipeDraft, RunSetup
 from tests.app.driving import LEFT, brought, choose, key, named, phase, press, sentence
 
 SHORT = StoppingCriteria(max_iterations=3, tolerance=0)

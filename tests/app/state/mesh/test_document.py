@@ -12,8 +12,8 @@ from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
-from hexmend_app.state.mesh.snapshots import MAX_SNAPSHOTS, Snapshots
-from hexmend_app.state.mesh.worst_hexes import WorstHexes
+from hexmend_app.state.mesh.selection import WorstHexes
+from hexmend_app.state.view.side_views import MAX_SNAPSHOTS, Snapshots
 from hexmend_app.state.view.view_model import ViewModel
 from tests.app.invalid_hexes import INSIDE, INVERTED, THREE, VALID
 from tests.core.grids import grid, scrambled

@@ -9,12 +9,11 @@ from hexmend import FileError, ParameterError, gallery
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION
 from hexmend_app.picture import Camera
-from hexmend_app.picture.named_cameras import cameras_of, merged
+from hexmend_app.picture.camera import cameras_of, merged
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
-from hexmend_app.state.mesh.snapshots import Snapshots
 from hexmend_app.state.session import session_data
 from hexmend_app.state.view.saved_cameras import SavedCameras
-from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, SideViews, Wipe
+from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, SideViews, Snapshots, Wipe
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
