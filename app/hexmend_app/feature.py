@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu, QWidget
 
-from hexmend_app.host import Host
-from hexmend_app.state.session.state_part import StatePart
+from hexmend_app.host import Host as Host
+from hexmend_app.state.session.state_part import StatePart as StatePart
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -245,17 +245,3 @@ def _differ(before: object, now: object) -> bool:
     # Without `isinstance`, as numpy is not imported before the first picture.
     is_array = any(getattr(value, "ndim", 0) for value in (before, now))
     return is_array or before != now
-
-
-__all__ = [
-    "MENUS",
-    "Action",
-    "ButtonAppearance",
-    "ChangeTracker",
-    "Feature",
-    "Host",
-    "Panel",
-    "PanelPlace",
-    "StatePart",
-    "always",
-]

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.curves import Chart, Curve, described
 from hexmend_app.report.convergence import DASHES, Line, LineChart
-from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
-from hexmend_app.state.mesh.run_record import balances
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord, balances
 from hexmend_app.theme.palette import MUTED, TEXT
 from hexmend_app.theme.spacing import apply_spacing, fill
 from hexmend_app.theme.style import on_theme_change, set_help, small_label, smaller, tint

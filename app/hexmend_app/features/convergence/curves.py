@@ -12,8 +12,7 @@ from hexmend.iteration.figures import DIAGNOSTICS, HISTORY, objective_changes
 from hexmend.quantity import Quantity, format_significant
 from hexmend_app.codec.checks import check_known
 from hexmend_app.report.convergence import DASHES, Line, LineChart
-from hexmend_app.state.mesh.history import RunRecord
-from hexmend_app.state.mesh.run_record import balances
+from hexmend_app.state.mesh.run_record import RunRecord, balances
 from hexmend_app.theme.palette import RUN_COLOURS, Role
 from hexmend_app.translation import tr
 

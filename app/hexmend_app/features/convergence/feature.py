@@ -22,7 +22,7 @@ from hexmend_app.features.convergence.curves import (
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence
-from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QListWidget, QListWidgetI
 
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, ChartSettings, Curve, axis_title, colour_of
-from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, on_theme_change, set_help, small_label, smaller
 from hexmend_app.translation import tr

@@ -13,7 +13,7 @@ from hexmend.quality.file_ids import hex_ids
 from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
-from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted, duration, figure
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
+from typing import NamedTuple
 
 from PySide6.QtGui import QGuiApplication
 
@@ -13,7 +14,6 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.smooth.run_states import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
 from hexmend_app.state.run.run_controller import Phase
@@ -26,6 +26,37 @@ from hexmend_app.widgets.wording import figure
 
 #: Goal of Mend and metric of the colours.
 _SCALED_JACOBIAN = "scaled-jacobian"
+
+
+class RunState(NamedTuple):
+    """Text, icon and help of the button that runs and pauses, and which commands are possible."""
+
+    text: str
+    icon: str
+    help: str
+    run: bool
+    step: bool
+    stop: bool
+    reset: bool
+    edit: bool
+
+
+_RUN = "Smooth the mesh with this method until a stopping criterion is met."
+
+STATES = {
+    "idle": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=False, edit=True),
+    "preparing": RunState(
+        "Preparing", "timer-sand", "Preparing the method.", run=False, step=False, stop=True, reset=False, edit=False
+    ),
+    "stopping": RunState(
+        "Stopping", "timer-sand", "Stopping the run.", run=False, step=False, stop=False, reset=False, edit=False
+    ),
+    "running": RunState(
+        "Pause", "pause", "Pause after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
+    ),
+    "paused": RunState("Resume", "play", "Continue the run.", run=True, step=True, stop=True, reset=True, edit=True),
+    "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
+}
 
 
 class FeatureSmooth(Feature):

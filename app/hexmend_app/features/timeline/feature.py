@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
-from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr

@@ -17,7 +17,8 @@ from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import PageRenderer
 from hexmend_app.scene.page.rasters import PageViews, page_views
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.mesh.history import History, RunRecord
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RunRecord
 
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:

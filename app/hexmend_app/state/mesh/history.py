@@ -296,6 +296,3 @@ class ComparisonBases:
         if self._iteration is None or self._iteration[0] != iteration:
             self._iteration = iteration, self._history.state(iteration, self._document.now.mesh)
         return self._iteration[1]
-
-
-__all__ = ["LIMIT", "History", "RecordedIteration", "RunRecord"]

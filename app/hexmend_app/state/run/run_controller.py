@@ -17,7 +17,8 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
-from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_setup import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker

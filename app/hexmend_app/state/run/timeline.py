@@ -5,7 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend_app.state.mesh.document import OWN_PARTS, Document, MeasuredMesh
-from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.settings.settings import ITERATIONS_PLAYED
 

@@ -21,7 +21,7 @@ from hexmend.errors import HexmendError
 from hexmend.io.storage.temporary_files import make_folder
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import Change
-from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.session import session_data
 from hexmend_app.state.tasks.task import Task

@@ -13,7 +13,8 @@ from hexmend_app.features.convergence.convergence_plot import ConvergencePlot, d
 from hexmend_app.features.convergence.curves import CHARTS, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, brought, choose, click_until, drag, smooth, turn
 from tests.core.grids import grid, scrambled

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from hexmend import METHODS, StoppingCriteria, iterate
 from hexmend_app.picture.appearance import Since
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.mesh.history import History, RecordedIteration
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration
 from tests.app.driving import smooth
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled

@@ -11,7 +11,8 @@ from hexmend import Iteration, Laplacian, Smoother, Step, StoppingCriteria, gall
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.mesh.history import History, RecordedIteration
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.tasks.task import Task, running, wait_for_dropped

@@ -7,7 +7,7 @@ from hexmend import Laplacian, StoppingCriteria, io, measure
 from hexmend.boundary import NodeClass, boundary_of
 from hexmend.io.formats.openfoam.foam_text import replaced_points
 from hexmend_app.state.mesh.document import Document
-from hexmend_app.state.mesh.history import RecordedIteration
+from hexmend_app.state.mesh.run_record import RecordedIteration
 from hexmend_app.state.session.session import Session
 from hexmend_app.state.tasks.boundary_classifier import (
     LEFT,
