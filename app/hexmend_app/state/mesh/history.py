@@ -38,19 +38,16 @@ class History:
     ----------
     records : list of RunRecord
         Oldest first.
+    bytes : int
+        Memory of the recorded positions in bytes.
     """
 
     def __init__(self, limit: int = LIMIT):
         self.records: list[RunRecord] = []
         self._limit = limit
-        self._bytes = 0
+        self.bytes = 0
         self._lock = threading.Lock()
         self._iterations: WeakKeyDictionary[MeasuredMesh, RecordedIteration] = WeakKeyDictionary()
-
-    @property
-    def bytes(self) -> int:
-        """Memory of the recorded positions in bytes."""
-        return self._bytes
 
     @property
     def limit(self) -> int:
@@ -94,7 +91,7 @@ class History:
                 return
             if offsets is not None:
                 record._offsets[iteration.number] = offsets
-                self._bytes += offsets.nbytes
+                self.bytes += offsets.nbytes
                 self._thin()
             record.rows.append(row)  # last, so that the positions of every row are there
 
@@ -114,7 +111,7 @@ class History:
         """Remove a run."""
         with self._lock:
             self.records = [other for other in self.records if other is not record]
-            self._bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
+            self.bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
             record._offsets.clear()
         for state, iteration in list(self._iterations.items()):
             if iteration.record is record:
@@ -153,7 +150,7 @@ class History:
             with self._lock:
                 for number, offsets in saved.offsets:
                     record._offsets[number] = offsets
-                    self._bytes += offsets.nbytes
+                    self.bytes += offsets.nbytes
         for state, run, number in data.iterations:
             self._iterations[state] = RecordedIteration(self.records[run], number)
         with self._lock:
@@ -229,13 +226,13 @@ class History:
 
     def _thin(self) -> None:
         """Drop the position between the nearest two others, of the run with the most, until the limit is met."""
-        while self._bytes > self._limit:
+        while self.bytes > self._limit:
             record = max(self.records, key=lambda one: len(one._offsets))
             numbers = [0, *record._offsets]
             if len(numbers) < 3:
                 break
             at = min(range(1, len(numbers) - 1), key=lambda k: numbers[k + 1] - numbers[k - 1])
-            self._bytes -= record._offsets.pop(numbers[at]).nbytes
+            self.bytes -= record._offsets.pop(numbers[at]).nbytes
 
 
 def _state_with(mesh: Mesh, record: RunRecord, points: np.ndarray) -> MeasuredMesh:

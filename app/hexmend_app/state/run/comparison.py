@@ -137,6 +137,8 @@ class Comparison(QObject):
         State that the methods start from; None if nothing was compared.
     results : tuple of MethodResult
         Results of the finished methods.
+    stop : StoppingCriteria
+        Limits of each method in the last comparison.
     progress : ComparisonProgress or None
         Progress of the comparison; None if none is active.
     """
@@ -149,7 +151,7 @@ class Comparison(QObject):
         self._document = document
         self._task: Task | None = None
         self.progress: ComparisonProgress | None = None
-        self._stop, self._rules = StoppingCriteria(), MotionRules()
+        self.stop, self._rules = StoppingCriteria(), MotionRules()
         self._asked = 0
         self.initial: MeasuredMesh | None = None
         self.results: tuple[MethodResult, ...] = ()
@@ -159,11 +161,6 @@ class Comparison(QObject):
     def busy(self) -> bool:
         """True while methods run."""
         return self._task is not None
-
-    @property
-    def stop(self) -> StoppingCriteria:
-        """Stopping criteria of the last comparison."""
-        return self._stop
 
     @property
     def ending(self) -> bool:
@@ -189,7 +186,7 @@ class Comparison(QObject):
         if self.busy or not self._document.is_open or not smoothers:
             return
         self.initial, self.results = self._document.now, ()
-        self._stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
+        self.stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
         work = partial(_run_all, self.initial, tuple(smoothers), stop, self._rules)
         self._task = Task("comparison of methods", work, yields=True)
@@ -213,7 +210,7 @@ class Comparison(QObject):
         row = next((result.row for result in self.results if result.state is state), None)
         if row is None or row.method not in METHODS:
             return None
-        stop = self._stop
+        stop = self.stop
         if row.outcome in (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key):
             stop = replace(stop, max_iterations=row.iterations, max_seconds=0.0)
         smoother = from_values(METHODS[row.method], row.parameters, owner=row.method)
@@ -221,12 +218,12 @@ class Comparison(QObject):
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""
-        return ComparisonData(self.initial, self._stop, self._asked, self.results, self._rules)
+        return ComparisonData(self.initial, self.stop, self._asked, self.results, self._rules)
 
     def restore(self, data: ComparisonData) -> None:
         """Restore the comparison of a session file."""
         self.close()
-        self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
+        self.initial, self.stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
         self._rules = data.rules
         self.changed.emit()
 
@@ -238,7 +235,7 @@ class Comparison(QObject):
     def _clear(self) -> None:
         self.close()
         self.initial, self.results, self._asked = None, (), 0
-        self._stop, self._rules = StoppingCriteria(), MotionRules()
+        self.stop, self._rules = StoppingCriteria(), MotionRules()
         self.changed.emit()
 
     def _take(self, report: MethodResult | ComparisonProgress) -> None:

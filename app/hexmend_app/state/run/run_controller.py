@@ -54,6 +54,8 @@ class RunController(QObject):
         Why the last run ended; None if it failed.
     history : History
         Records of all runs.
+    breakpoints : Breakpoints
+        Events at which runs pause, set by `set_breakpoints`.
     shows_every : bool
         Runs wait until each iteration is shown; otherwise the newest is shown thirty times a second.
     following : bool
@@ -89,7 +91,7 @@ class RunController(QObject):
         self._title = ""
         self._after_end: list[Callable[[], object]] = []
         self._metrics: frozenset[str] = frozenset()
-        self._breakpoints = Breakpoints()
+        self.breakpoints = Breakpoints()
         self.work: Smoother | Recipe | None = None
         self.record: RunRecord | None = None
         self.advice: Advice | None = None
@@ -152,7 +154,7 @@ class RunController(QObject):
         else:
             self.record.recipe = Recipe.of(Stage(smoother, stop or StoppingCriteria()), rules=rules)
         self.record.settings = "; ".join(filter(None, (settings_text(smoother, stop), rules_text(rules))))
-        self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
+        self._worker.metrics, self._worker.breakpoints = self._metrics, self.breakpoints
         self._worker.shows_every = self.shows_every
         self._worker.set_remaining(iterations)
         self.following = True
@@ -180,22 +182,17 @@ class RunController(QObject):
 
     def set_breakpoints(self, breakpoints: Breakpoints) -> None:
         """Set the breakpoints at which runs pause."""
-        self._breakpoints = breakpoints
+        self.breakpoints = breakpoints
         if self._worker is not None:
             self._worker.breakpoints = breakpoints
 
     def to_data(self) -> Breakpoints:
         """Return the breakpoints for a session file."""
-        return self._breakpoints
+        return self.breakpoints
 
     def restore(self, data: Breakpoints) -> None:
         """Restore the breakpoints of a session file."""
         self.set_breakpoints(data)
-
-    @property
-    def breakpoints(self) -> Breakpoints:
-        """Events at which runs pause."""
-        return self._breakpoints
 
     def pause(self) -> None:
         """Pause after the current iteration."""
@@ -250,7 +247,7 @@ class RunController(QObject):
         """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""
         self.close()
         self.work = self.record = self.advice = self.outcome = self._result = None
-        self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # numbers of the previous mesh
+        self.breakpoints = replace(self.breakpoints, hex=None, node=None)  # numbers of the previous mesh
         self._set_phase(Phase.IDLE)
 
     def close(self) -> None:

@@ -23,6 +23,8 @@ class Timeline(QObject):
     ----------
     record : RunRecord or None
         The selected run.
+    shown_iteration : RecordedIteration or None
+        The iteration that is shown; None if the document shows another state.
     speed : float
         Iterations per second when playing.
 
@@ -50,7 +52,7 @@ class Timeline(QObject):
         self.record: RunRecord | None = None
         self.speed: float = SPEED
         self._runs: list[RunRecord] = []
-        self._shown: RecordedIteration | None = None
+        self.shown_iteration: RecordedIteration | None = None
         self._target: RecordedIteration | None = None
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._go_to_target)
@@ -60,11 +62,6 @@ class Timeline(QObject):
         document.points_moved.connect(self._on_moved)
         smoothing.iterated.connect(lambda frame: self.extended.emit())
         smoothing.phase_changed.connect(self._on_phase)
-
-    @property
-    def shown_iteration(self) -> RecordedIteration | None:
-        """The iteration that is shown; None if the document shows another state."""
-        return self._shown
 
     @property
     def live(self) -> bool:
@@ -132,7 +129,7 @@ class Timeline(QObject):
         """Play the recorded iterations from the shown one; at the end, from the start."""
         if self.record is None:
             return
-        if self._shown is None or self._shown.number >= self.record.newest:
+        if self.shown_iteration is None or self.shown_iteration.number >= self.record.newest:
             self.go(self.record, 0)
         self._clock.start(round(1000 / self.speed))
         self.playing_changed.emit()
@@ -184,15 +181,19 @@ class Timeline(QObject):
         if self.record is None:
             return
         numbers = self.history.recorded_numbers(self.record).tolist()
-        shown = self._shown.number if self._shown is not None and self._shown.record is self.record else 0
+        shown = (
+            self.shown_iteration.number
+            if self.shown_iteration is not None and self.shown_iteration.record is self.record
+            else 0
+        )
         ahead = [n for n in numbers if n > shown] if by > 0 else [n for n in reversed(numbers) if n < shown]
         if ahead:
             self.go(self.record, ahead[min(abs(by), len(ahead)) - 1])
 
     def _play_next(self) -> None:
-        before = self._shown
+        before = self.shown_iteration
         self._go_by(1)
-        if self._shown is before:
+        if self.shown_iteration is before:
             self.pause()
 
     def _go_to_target(self) -> None:
@@ -202,8 +203,8 @@ class Timeline(QObject):
 
     def _on_moved(self) -> None:
         shown = self.history.iteration_of(self._document.now)
-        if shown != self._shown:
-            self._shown = shown
+        if shown != self.shown_iteration:
+            self.shown_iteration = shown
             if shown is not None and shown.number and shown.record is not self.record:
                 self.record = shown.record
                 self.extended.emit()
