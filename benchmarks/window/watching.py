@@ -29,7 +29,7 @@ def _row(window: Window) -> dict[str, Any]:
     stops = [_stop(window) for _ in range(_STOPS)]
     for record in list(window.session.history.records):
         window.session.timeline.delete(record)
-    window.session.history.limit = LIMIT
+    window.session.history.set_limit(LIMIT)
     _run(window, _ITERATIONS)
     history, record = window.session.history, window.session.timeline.record
     numbers = history.recorded_numbers(record)

@@ -87,7 +87,7 @@ class Resetting:
         session.run_setup.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
         session.run_setup.active_stage = None
         session.run_setup.set_rules(MotionRules())
-        session.history.limit = LIMIT
+        session.history.set_limit(LIMIT)
         session.run.show_every(False)
         session.timeline.pause()
         session.timeline.set_speed(SPEED)

@@ -74,7 +74,7 @@ class Window(QMainWindow):
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
-        self._menus: Menus | None = None
+        self.menus: Menus | None = None
         self._timer = QTimer(self, singleShot=True)  # combines changes
         self._timer.timeout.connect(self.refresh)
         screen = self.screen().availableGeometry()
@@ -111,11 +111,11 @@ class Window(QMainWindow):
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
         actions = declared(self.features.values(), lambda feature: feature.actions())
-        self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
-        for action in self._menus.actions.values():
+        self.menus = Menus(self, [*actions, *declare_actions(self, panels)])
+        for action in self.menus.actions.values():
             action.triggered.connect(self.messages.leave_card)
         for button in self.findChildren(ActionButton):
-            button.show_action(self._menus.actions[button.action_id])
+            button.show_action(self.menus.actions[button.action_id])
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready()
@@ -162,16 +162,11 @@ class Window(QMainWindow):
     @property
     def window_actions(self) -> dict[str, QAction]:
         """All actions by id."""
-        return self._menus.actions
-
-    @property
-    def menus(self) -> Menus:
-        """Menus and the declarations of their actions."""
-        return self._menus
+        return self.menus.actions
 
     def action(self, id: str) -> QAction:
         """Return the action of any feature; available once all features are built."""
-        return self._menus.actions[id]
+        return self.menus.actions[id]
 
     def show_panel(self, id: str) -> None:
         """Open a panel in front of its tabs."""
@@ -238,8 +233,8 @@ class Window(QMainWindow):
         if self.session is None:
             return
         call_each(self.features.values(), lambda feature: feature.refresh())
-        if self._menus is not None:
-            self._menus.refresh(self.session.document.is_open)
+        if self.menus is not None:
+            self.menus.refresh(self.session.document.is_open)
         # Esc dismisses messages first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and not self.messages.takes_escape else "")
         document = self.session.document
@@ -255,8 +250,8 @@ class Window(QMainWindow):
         if hit is not None:
             self.session.selection.choose(*hit)
         self.refresh()
-        if self._menus is not None:
-            self._menus.context_menu().popup(at)
+        if self.menus is not None:
+            self.menus.context_menu().popup(at)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move the focus to the view after Return in a field, which has acted on it and passed it on."""
@@ -269,7 +264,7 @@ class Window(QMainWindow):
 
     def _on_focus_changed(self, before: QWidget | None, now: QWidget | None) -> None:
         """Scroll a panel to a widget that receives the focus by a key."""
-        if now is not None and self._menus is not None and not QApplication.mouseButtons():
+        if now is not None and self.menus is not None and not QApplication.mouseButtons():
             from hexmend_app.shell.panels.stacked_panels import scroll_to
 
             scroll_to(now)
@@ -283,7 +278,7 @@ class Window(QMainWindow):
             return
         QApplication.instance().focusChanged.disconnect(self._on_focus_changed)  # type: ignore[attr-defined]
         settings.GEOMETRY.set(self.saveGeometry())
-        if self._menus is not None:  # otherwise the panels have not been added yet
+        if self.menus is not None:  # otherwise the panels have not been added yet
             settings.PANELS.set(self.docks.state())
         self.docks.set_hidden(True)  # floating panels are windows of their own
         self.hide()  # threads may take a while to end

@@ -35,7 +35,7 @@ class FeatureCurves(Feature):
             icon="vector-polyline",
             help=tr("Mark the boundary edges between two selected nodes as a curve, which sliding keeps."),
             handle=self.mark,
-            enabled=lambda: self._editable and self._on_boundary,
+            enabled=lambda: self.session.editable and self._on_boundary,
             title=self._title,
             in_view=True,
         )
@@ -46,7 +46,7 @@ class FeatureCurves(Feature):
             section=1,
             help=tr("Remove the marks of the curve through the selected node; undo reverts this."),
             handle=self.unmark,
-            enabled=lambda: self._editable and self._is_marked,
+            enabled=lambda: self.session.editable and self._is_marked,
             in_view=True,
         )
         yield Action(
@@ -56,7 +56,7 @@ class FeatureCurves(Feature):
             section=1,
             help=tr("Remove the marks of all curves; undo reverts this."),
             handle=lambda: self.session.commands.unmark_curves(),
-            enabled=lambda: self._editable and len(self._marked) > 0,
+            enabled=lambda: self.session.editable and len(self._marked) > 0,
         )
 
     def mark(self) -> None:
@@ -89,10 +89,6 @@ class FeatureCurves(Feature):
     @property
     def _mesh(self) -> Mesh:
         return self.session.document.now.mesh
-
-    @property
-    def _editable(self) -> bool:
-        return self.session.editable
 
     @property
     def _on_boundary(self) -> bool:

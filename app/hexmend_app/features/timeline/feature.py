@@ -40,7 +40,7 @@ class FeatureTimeline(Feature):
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
         self._reader = session.time_reader
-        session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
+        session.history.set_limit(settings.HISTORY_MEGABYTES.get() << 20)
         timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
 
@@ -133,7 +133,7 @@ class FeatureTimeline(Feature):
             self.session.commands.branch(stage)
 
     def _set_limit(self, megabytes: int) -> None:
-        self.session.history.limit = megabytes << 20
+        self.session.history.set_limit(megabytes << 20)
         settings.HISTORY_MEGABYTES.set(megabytes)
         self._show_settings()
         self._seen.forget()

@@ -40,24 +40,21 @@ class History:
         Oldest first.
     bytes : int
         Memory of the recorded positions in bytes.
+    limit : int
+        Its limit, set by `set_limit`.
     """
 
     def __init__(self, limit: int = LIMIT):
         self.records: list[RunRecord] = []
-        self._limit = limit
+        self.limit = limit
         self.bytes = 0
         self._lock = threading.Lock()
         self._iterations: WeakKeyDictionary[MeasuredMesh, RecordedIteration] = WeakKeyDictionary()
 
-    @property
-    def limit(self) -> int:
-        """Memory limit of positions in bytes; setting a lower one drops positions at once."""
-        return self._limit
-
-    @limit.setter
-    def limit(self, limit: int) -> None:
+    def set_limit(self, limit: int) -> None:
+        """Set the memory limit in bytes; a lower one drops positions at once."""
         with self._lock:
-            self._limit = limit
+            self.limit = limit
             self._thin()
 
     def begin(self, title: str, start: MeasuredMesh) -> RunRecord:
@@ -226,7 +223,7 @@ class History:
 
     def _thin(self) -> None:
         """Drop the position between the nearest two others, of the run with the most, until the limit is met."""
-        while self.bytes > self._limit:
+        while self.bytes > self.limit:
             record = max(self.records, key=lambda one: len(one._offsets))
             numbers = [0, *record._offsets]
             if len(numbers) < 3:

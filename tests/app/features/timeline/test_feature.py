@@ -94,7 +94,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
 def test_memory_and_speed_are_remembered(window, qtbot):
     record = stepped(window, qtbot)
     each = (window.session.history.bytes) // 12
-    window.session.history.limit = 4 * each
+    window.session.history.set_limit(4 * each)
     menu = named(window.features["timeline"].panel, QToolButton, "Timeline settings").menu()
     choices = {action.text(): action for part in (menu, *menu.findChildren(QMenu)) for action in part.actions()}
     choices["128 MiB"].trigger()

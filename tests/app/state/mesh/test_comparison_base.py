@@ -52,7 +52,7 @@ def test_the_reference_depends_on_the_iteration_that_is_shown(session, qtbot):
 
 def test_if_the_previous_iteration_was_dropped_the_nearest_earlier_one_is_the_reference(session, qtbot):
     record = run(qtbot, session)
-    session.history.limit = session.history.bytes // 3
+    session.history.set_limit(session.history.bytes // 3)
     numbers = session.history.recorded_numbers(record).tolist()
     earlier, at = next((m, n) for m, n in pairwise(numbers) if n - m > 1)
     session.timeline.go(record, at)
@@ -146,7 +146,7 @@ def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
 def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():
     history = History()
     record, _, _ = recorded(history)
-    history.limit = 4 * FREE
+    history.set_limit(4 * FREE)
     numbers = history.recorded_numbers(record)
     assert len(numbers) == 5
     dropped = next(n for n in range(20) if n not in numbers)
