@@ -106,8 +106,10 @@ def has_repeated_node(hexes: np.ndarray) -> np.ndarray:
 
 
 def referenced_nodes(mesh: Mesh) -> np.ndarray:
-    """Return True for nodes that a hex (as corner or mid-node), another cell or a named set uses, (n,) bool."""
+    """Return True for nodes that a hex (as corner or mid-node), another cell, a named set or a pin uses, (n,) bool."""
     used = mesh.topology.used.copy()
+    if mesh.pinned is not None:  # such as the reference node of a rigid body
+        used |= mesh.pinned
     if mesh.mid_nodes is not None:
         used[mesh.mid_nodes[mesh.mid_nodes >= 0]] = True
     for cells in mesh.cells:

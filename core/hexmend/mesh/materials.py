@@ -14,7 +14,8 @@ from hexmend.mesh.topology import Topology
 
 #: Name of field data that list hex sets that are only blocks of a structured grid, and no materials.
 STRUCTURED_BLOCKS = "structured blocks"
-#: Name of field data that list cards of a file by which bodies touch: nodes at one position are meant to be two.
+#: Name of field data that list cards of a file by which bodies touch or are joined: nodes at one position are meant to
+#: be two.
 CONTACT_CARDS = "contact cards"
 
 #: Names of hex data that number materials, the most specific first; compared without case, spaces and punctuation.

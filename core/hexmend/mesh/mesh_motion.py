@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
 from hexmend.hooks import hook
+from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
 from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
@@ -20,7 +21,9 @@ from hexmend.mesh.validation import as_bools, check_finite, points_like
 from hexmend.terminal_text import count_phrase
 
 #: Cached properties that do not depend on the points.
-SHARED = ("fixed", "free", "immovable", "materials")
+SHARED = ("fixed", "free", "immovable", "embedded", "materials")
+#: Corners of cells of dimension 0 to 2; others have four.
+_CORNERS = {"vertex": 1, "line": 2, "line3": 2, "triangle": 3, "triangle6": 3}
 
 M = TypeVar("M", bound="MeshMotion")
 
@@ -69,13 +72,34 @@ class MeshMotion(MeshData):
         return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
 
     @cached_property
-    def immovable(self) -> np.ndarray:
-        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool.
+    def embedded(self) -> np.ndarray:
+        """True for nodes of faces, edges and points of the file inside the mesh, (n,) bool: of baffles, beams, masses.
 
-        So do the corners with which such a mid-node would move.
+        Faces are cells and those of side sets. Nodes of the boundary and of interfaces between materials are not among
+        them.
+        """
+        marks = np.zeros(self.n_nodes, dtype=bool)
+        for cells in self.cells:
+            if cells.dimension < 3:
+                marks[cells.nodes[:, : _CORNERS.get(cells.kind, 4)]] = True
+        for rows in self.side_sets.values():
+            marks[self.hexes[rows[:, :1], FACES[rows[:, 1]]]] = True
+        if marks.any():
+            marks &= ~self.topology.boundary
+        if marks.any() and self.materials is not None:
+            marks &= ~self.materials.interface_nodes
+        return as_immutable(marks)
+
+    @cached_property
+    def immovable(self) -> np.ndarray:
+        """True for nodes that stay where they are even if the boundary slides: pinned, embedded or fixed by a rule.
+
+        (n,) bool. So do the corners with which such a mid-node would move.
         """
         rules = self.node_rules
         stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
+        if rules.interfaces != "free":
+            stays |= self.embedded
         if rules.free is not None:
             stays &= ~rules.free
         if rules.fixed is not None:
@@ -211,7 +235,7 @@ class MeshMotion(MeshData):
         MeshError
             For a node that does not exist.
         """
-        mesh = self.without_motion_of_rules()._copy("materials", "immovable")
+        mesh = self.without_motion_of_rules()._copy("materials", "embedded", "immovable")
         mesh.__dict__.pop("_linear", None)
         if not motion:
             return mesh
@@ -225,13 +249,13 @@ class MeshMotion(MeshData):
 
     def with_motion_of_rules(self: M, motion: LinearMotion) -> M:
         """Return the mesh with a linear motion that includes that of its rules; see `without_motion_of_rules`."""
-        return self._copy("materials", "immovable", _linear_of_rules=(motion, self.points))
+        return self._copy("materials", "embedded", "immovable", _linear_of_rules=(motion, self.points))
 
     def without_motion_of_rules(self: M) -> M:
         """Return the mesh with the linear motion that it had before rules added theirs."""
         if "_linear_of_rules" not in self.__dict__:
             return self
-        mesh = self._copy("materials", "immovable")
+        mesh = self._copy("materials", "embedded", "immovable")
         del mesh.__dict__["_linear_of_rules"]
         return mesh
 
@@ -267,7 +291,7 @@ class MeshMotion(MeshData):
         fixed = as_bools(fixed, "fixed", self.n_nodes)
         if self.linear_motion is not None:
             fixed = with_ties_fixed(self.linear_motion, fixed)
-        return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
+        return self._copy("materials", "embedded", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
 
     def with_rules(self: M, **rules: Any) -> M:
         """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
@@ -286,4 +310,4 @@ class MeshMotion(MeshData):
 
         `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
         """
-        return self._copy("materials", _rules=rules)
+        return self._copy("materials", "embedded", _rules=rules)

@@ -38,6 +38,15 @@ def describe_interfaces(mesh: Mesh, interfaces: str = "") -> str:
     return f"{len(materials)} materials; {nodes} {fates[rule]}{options}."
 
 
+def describe_embedded(mesh: Mesh) -> str:
+    """Tell that nodes of faces, edges and points inside the mesh stay; "" if there are none, or they may move."""
+    n_embedded = int(np.count_nonzero(mesh.embedded & mesh.immovable))
+    if not n_embedded:
+        return ""
+    stay = count_phrase(n_embedded, "node stays", "nodes stay")
+    return f"{stay}: of faces, edges or points that the file has inside the mesh (--interfaces free lets them move)."
+
+
 def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialVolume]) -> str:
     """Tell what a run did to the interfaces of a mesh; "" for one material.
 

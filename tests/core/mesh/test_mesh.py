@@ -96,14 +96,14 @@ def test_a_replaced_mesh_shares_what_is_not_replaced_and_checks_what_is():
 
 
 MESH = scrambled(grid(5), 0.4).replace(
-    node_sets={"some": np.array([100, 101])}, hex_sets={"part": np.array([62])}, side_sets={"side": np.array([[62, 3]])}
+    node_sets={"some": np.array([100, 101])}, hex_sets={"part": np.array([62])}, side_sets={"side": np.array([[64, 1]])}
 )
 
 
 def test_sets_of_nodes_hexes_and_sides_are_fixed():
     assert set(nodes_in_set(MESH, "part")) == set(MESH.hexes[62])
-    assert set(nodes_in_set(MESH, "side")) == set(MESH.hexes[62][FACES[3]])
-    fixed = fix(MESH, "some", "side").fixed
+    assert set(nodes_in_set(MESH, "side")) == set(MESH.hexes[64][FACES[1]])
+    fixed = fix(MESH, "some", "side").immovable
     assert fixed[[100, 101]].all()
     assert fixed[nodes_in_set(MESH, "side")].all()
     with pytest.raises(MeshError, match=r"there is no set 'sme': did you mean some\? there are 'some', 'part', 'side'"):
@@ -128,9 +128,28 @@ def test_fixed_sets_are_those_of_which_no_node_moves():
     assert MESH.fixed_sets == ()
     assert fix(MESH, "some").fixed_sets == ("some",)
     assert fix(MESH, nodes_in_set(MESH, "side")[1:]).fixed_sets == ()
-    assert set(fix(MESH, "part").fixed_sets) == {"part", "side"}  # the side is one of its faces
+    assert fix(MESH, "part").fixed_sets == ("part",)
+    assert fix(MESH, MESH.hexes[64]).fixed_sets == ("side",)  # one of its faces
     assert MESH.with_rules(fix="side").fixed_sets == ("side",)
     assert unfix(fix(MESH, "some"), "some").fixed_sets == ()
+
+
+def test_nodes_of_faces_edges_and_points_inside_stay_unless_interfaces_are_free():
+    mesh, (a, b, c, d) = scrambled(grid(5), 0.4), MESH.hexes[62][FACES[3]]
+    outer = Cells("quad", mesh.topology.boundary_faces)
+    for change, kept in (
+        ({"side_sets": {"baffle": np.array([[62, 3]])}}, [a, b, c, d]),
+        ({"cells": (outer, Cells("quad", np.array([[a, b, c, d]], np.int32)))}, [a, b, c, d]),
+        (
+            {"cells": (Cells("line", np.array([[a, b]], np.int32)), Cells("vertex", np.array([[d]], np.int32)))},
+            [a, b, d],
+        ),
+        ({"hex_sets": {"low": np.arange(50), "high": np.arange(50, 125)}, "side_sets": {"z": np.array([[45, 5]])}}, []),
+    ):
+        changed = mesh.replace(**change)
+        np.testing.assert_array_equal(np.flatnonzero(changed.immovable), np.sort(kept))
+        assert not changed.free[kept].any()
+        assert changed.with_rules(interfaces="free").free.sum() == mesh.free.sum()
 
 
 @pytest.mark.parametrize("rings", [0, 1, 2])

@@ -17,6 +17,7 @@ from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
+from hexmend.run.interface_messages import describe_embedded, describe_interfaces
 from hexmend.terminal_text import count_phrase, printable
 
 if TYPE_CHECKING:
@@ -66,6 +67,8 @@ def run(args: argparse.Namespace) -> int:
         _print_locked(args, mesh, locking)
     if mesh.materials is not None:
         _print_materials(mesh)
+    if embedded := describe_embedded(mesh):
+        print(embedded)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
     for wall in layers:
@@ -100,8 +103,6 @@ def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ..
 
 def _print_materials(mesh: Mesh) -> None:
     """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
-    from hexmend.run.interface_messages import describe_interfaces  # loaded only for a mesh of several materials
-
     materials = mesh.materials
     counts = np.bincount(materials.of_hex).tolist()
     named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]

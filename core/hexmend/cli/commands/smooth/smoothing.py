@@ -31,6 +31,7 @@ from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report.records import record, write_history, write_json
 from hexmend.run import iterate
+from hexmend.run.interface_messages import describe_embedded
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.terminal_text import install_hint
@@ -64,7 +65,9 @@ def run(args: argparse.Namespace) -> int:
         print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
     elif args.layers == "keep":
         print("hexmend: --layers keep has no effect: no boundary layers were found.", file=sys.stderr)
-    if args.interfaces and mesh.materials is None:
+    if embedded := describe_embedded(mesh):
+        print(f"hexmend: {embedded}", file=sys.stderr)
+    if args.interfaces and mesh.materials is None and not mesh.embedded.any():
         print(f"hexmend: --interfaces {args.interfaces} has no effect: the mesh has one material.", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
+from hexmend.arrays import mask
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order, unused_name
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
+from hexmend.io.base.numbering import lookup as lookup_ids
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
-from hexmend.io.formats.abaqus.model import Instance, Part, SetLookup, name_key
+from hexmend.io.formats.abaqus.model import Instance, Part, SetDefinition, SetLookup, name_key
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
@@ -23,9 +26,11 @@ from hexmend.terminal_text import count_phrase
 #: Name of the cell data that hold the index of each element's type among the field data of the name `TYPES`.
 TYPE = "abaqus:type"
 TYPES = "abaqus:types"
+#: Types of elements that join nodes of different bodies.
+_JOINING = re.compile(r"SPRING|DASHPOT|GAP|CONN|COH|GK|JOINT|ITT|DCOUP|D$")
 
 
-def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[str], contact: list[str]) -> Mesh:
+def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[str], joining: list[str]) -> Mesh:
     """Join instances and the assembly's own nodes and elements into one mesh.
 
     Parameters
@@ -36,8 +41,8 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         Data outside of all parts and instances.
     notes : list of str
         Notes of the mesh; more are appended.
-    contact : list of str
-        Names of the cards by which bodies touch.
+    joining : list of str
+        Names of the cards by which bodies touch or are joined; more are appended.
 
     Raises
     ------
@@ -51,35 +56,34 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
         names = ", ".join(instance.name for instance in instances[:5])
         notes.append(f"{len(instances)} instances ({names}...) are read as one mesh.")
     instances = [*instances, Instance("", assembly)]
-    node_ids = [_concatenated(instance.part.node_ids) for instance in instances]
+    kept = [instance.part.last_given() for instance in instances]
+    node_ids = [_concatenated(one.part.node_ids)[rows] for one, rows in zip(instances, kept, strict=True)]
     if not sum(map(len, node_ids)):
         raise deck.error("has no *NODE", check_suffix("an Abaqus file"))
-    points = np.concatenate([instance.points() for instance in instances])
+    points = np.concatenate([instance.points() for instance in instances])[np.concatenate(kept)]
     elements = _Elements(deck, instances, node_ids)
-    unread = Counter()  # number of elements of each type that is not read
-    for card in (card for instance in instances for card in instance.part.element_cards if card.kind is None):
-        unread[card.type] += len(card.ids)
-    if unread:
-        notes.append(unread_note(f"{sum(unread.values()):,} elements of other types ({some_names(sorted(unread))})"))
 
     budget = MemoryBudget(deck.path, deck.size)
-    of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget)
     of_elements = _lookups(deck, instances, elements.ids, "element_sets", budget)
-    node_sets = _sets(instances, of_nodes, several)
+    finders = [lambda name, own=own: elements.nodes_of(own.resolve(name)) for own in of_elements]
+    of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget, finders)
     element_sets = _sets(instances, of_elements, several)
     side_sets, n_other = _side_sets(instances, of_elements, elements, several)
+    node_sets = _sets(instances, of_nodes, several) | _node_surfaces(instances, of_nodes, several)
+    notes += elements.notes()
+    if n_twice := sum(int((~rows).sum()) for rows in kept):
+        notes.append(f"{count_phrase(n_twice, 'node is', 'nodes are')} given again by a later line, which counts.")
     if n_other:
         notes.append(unread_note(f"{n_other:,} entries of surfaces that are not faces S1 to S6 of hexes"))
-    n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
-    if n_unknown:
-        members = count_phrase(n_unknown, "member of a set does", "members of sets do")
-        notes.append(f"{members} not exist in the file: ignored.")
+    notes += _missing_members((*of_nodes, *of_elements))
+    pinned = _fixed_nodes(instances, of_nodes, elements, len(points))
     blocks, node_data = tuple(elements.blocks(element_sets)), {ID: np.concatenate(node_ids)}
     fields = {TYPES: elements.types} if elements.types else {}
-    if contact:
-        fields[CONTACT_CARDS] = contact
-    unread = {f"type {quoted(type)}": count for type, count in unread.items()}
-    content = Content(points, blocks, node_data, node_sets, side_sets, None, fields, tuple(notes), unread)
+    joining += [f"ELEMENT, TYPE={type}" for type in elements.unread if _JOINING.match(type)]
+    if joining:
+        fields[CONTACT_CARDS] = joining
+    unread = {f"type {quoted(type)}": count for type, count in elements.unread.items()}
+    content = Content(points, blocks, node_data, node_sets, side_sets, pinned, fields, tuple(notes), unread)
     return mesh_of(deck.path, content)
 
 
@@ -102,6 +106,8 @@ class _Elements:
         Index of each element's type in `types`; -1 where it is not read.
     row : (n,) int
         Index of each element among those of its kind.
+    unread : Counter
+        Number of elements of each type that is not read.
     """
 
     def __init__(self, deck: Deck, instances: list[Instance], node_ids: list[np.ndarray]):
@@ -113,6 +119,9 @@ class _Elements:
         self.ids = [_concatenated([card.ids for card in instance.part.element_cards]) for instance in instances]
         self.counts = dict.fromkeys(self.kinds, 0)
         self._nodes: dict[str, list[np.ndarray]] = {kind: [] for kind in self.kinds}
+        self.unread = Counter()
+        self._n_longer = sum(card.n_longer for card in cards)
+        self._of_cards: list[np.ndarray] = []  # nodes of each card's elements, -1 for those that do not exist
         index_of = {name: k for k, name in enumerate(self.types)}
         kind, row, type = [], [], []
         for k, instance in enumerate(instances):
@@ -125,6 +134,11 @@ class _Elements:
                     self.counts[card.kind] += count
                     nodes = find_ids(deck.path, node_ids[k], card.nodes, "node") + first_node[k]
                     self._nodes[card.kind].append(to_vtk_order(nodes, card.kind, ORDER))
+                else:
+                    self.unread[card.type] += count
+                    nodes, exists = lookup_ids(node_ids[k], card.nodes)
+                    nodes = np.where(exists, nodes + first_node[k], -1)
+                self._of_cards.append(nodes)
         self.kind, self.row, self.type = _concatenated(kind), _concatenated(row), _concatenated(type)
 
     def blocks(self, sets: Mapping[str, np.ndarray]) -> list[Block]:
@@ -141,6 +155,28 @@ class _Elements:
             blocks.append(Block(kind, np.concatenate(self._nodes[kind]), data, sets_of[kind]))
         return blocks
 
+    def nodes_of(self, members: np.ndarray) -> np.ndarray:
+        """Nodes of elements, (k,) int64 ascending."""
+        found, first = [], 0
+        for nodes in self._of_cards:
+            own = members[(members >= first) & (members < first + len(nodes))] - first
+            found.append(nodes[own].ravel())
+            first += len(nodes)
+        nodes = np.unique(_concatenated(found))
+        return nodes[nodes >= 0]
+
+    def notes(self) -> list[str]:
+        """Notes on elements that are not read, and on numbers that are not."""
+        notes = []
+        if self.unread:
+            elements = count_phrase(self.unread.total(), "element")
+            types = some_names(sorted(self.unread))
+            notes.append(unread_note(f"{elements} of other types ({types}), whose nodes stay"))
+        if self._n_longer:
+            longer = count_phrase(self._n_longer, "element is followed", "elements are followed")
+            notes.append(f"{longer} by more numbers in a line than its type has nodes: these are ignored.")
+        return notes
+
     def hexes(self, members: np.ndarray) -> np.ndarray:
         """Numbers of hexes, counted through the blocks of hexes, (k,) int64; -1 for other elements."""
         first, hexes = 0, np.full(len(members), -1)
@@ -153,14 +189,23 @@ class _Elements:
 
 
 def _lookups(
-    deck: Deck, instances: list[Instance], ids: list[np.ndarray], attribute: str, budget: MemoryBudget
+    deck: Deck,
+    instances: list[Instance],
+    ids: list[np.ndarray],
+    attribute: str,
+    budget: MemoryBudget,
+    finders: Sequence[Callable[[str], np.ndarray]] = (),
 ) -> list[SetLookup]:
-    """Lookups of the sets of each instance; the last, the assembly's, can look up sets of instances."""
+    """Lookups of the sets of each instance; the last, the assembly's, can look up sets of instances.
+
+    `finders` find the nodes of an instance's element sets.
+    """
     first, lookups = _offsets(ids), []
     known: dict[str, SetLookup] = {}
     for k, instance in enumerate(instances):
         others = dict(known) if k == len(instances) - 1 else None
-        lookups.append(SetLookup(deck, ids[k], getattr(instance.part, attribute), int(first[k]), budget, others))
+        sets, finder = getattr(instance.part, attribute), finders[k] if finders else None
+        lookups.append(SetLookup(deck, ids[k], sets, int(first[k]), budget, others, finder))
         known[name_key(instance.name)] = lookups[-1]
     return lookups
 
@@ -177,6 +222,42 @@ def _sets(instances: list[Instance], lookups: list[SetLookup], several: bool) ->
         for key, definition in lookup.sets.items():
             found[_title(instance, definition.title, several)] = lookup.members(key)
     return found
+
+
+def _node_surfaces(instances: list[Instance], lookups: list[SetLookup], several: bool) -> dict[str, np.ndarray]:
+    """Nodes of surfaces by title; with a number behind it where a node set of the name has other members."""
+    found = {}
+    for instance, lookup in zip(instances, lookups, strict=True):
+        for key, surface in instance.part.node_surfaces.items():
+            title, nodes = _title(instance, surface.title, several), lookup.evaluate(surface)
+            if key in lookup.sets and not np.array_equal(lookup.members(key), nodes):
+                title = unused_name(title, [one.title for one in lookup.sets.values()])
+            found[title] = nodes
+    return found
+
+
+def _fixed_nodes(
+    instances: list[Instance], lookups: list[SetLookup], elements: _Elements, n_nodes: int
+) -> np.ndarray | None:
+    """Mark the nodes of elements that are not read, and those that only other cards name, (n,) bool; None for none."""
+    fixed = mask(elements.nodes_of(np.flatnonzero(elements.kind < 0)), n_nodes)
+    pairs = zip(instances, lookups, strict=True)
+    named = [lookup.evaluate(SetDefinition("", one.part.named_nodes)) for one, lookup in pairs if one.part.named_nodes]
+    if named:
+        used = mask(elements.nodes_of(np.arange(len(elements.kind))), n_nodes)
+        fixed |= mask(np.concatenate(named), n_nodes) & ~used
+    return fixed if fixed.any() else None
+
+
+def _missing_members(lookups: Sequence[SetLookup]) -> list[str]:
+    """Notes on members of sets that the file does not have."""
+    notes, n_unknown = [], sum(lookup.n_unknown for lookup in lookups)
+    if n_unknown:
+        members = count_phrase(n_unknown, "member of a set does", "members of sets do")
+        notes.append(f"{members} not exist in the file: ignored.")
+    if missing := dict.fromkeys(key for lookup in lookups for key in sorted(lookup.unknown_sets)):
+        notes.append(f"Sets refer to {some_names(map(quoted, missing))}, which the file does not have: ignored.")
+    return notes
 
 
 def _side_sets(

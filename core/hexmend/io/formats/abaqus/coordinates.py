@@ -47,22 +47,27 @@ class AbaqusCoordinates:
         self._deck, self._instances = deck, instances
         self._rows: dict[Card, np.ndarray] = {}
         self._fields: dict[Card, TextFields] = {}
+        ids: dict[Card, np.ndarray] = {}
         for instance in instances:
             for card in instance.part.node_cards:
                 if card not in self._rows:
-                    _, self._rows[card], self._fields[card] = card.deck.nodes(card)
+                    ids[card], self._rows[card], self._fields[card] = card.deck.nodes(card)
                 instance.part.points.append(self._rows[card])
-        self.points = np.concatenate([instance.points() for instance in instances])
+                instance.part.node_ids.append(ids[card])
+        self._given = np.concatenate([instance.points() for instance in instances])
+        self._kept = np.concatenate([instance.part.last_given() for instance in instances])
+        self.points = self._given[self._kept]
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the deck and its files with new coordinates; see `LocatedCoordinates.write`."""
         new_rows: dict[Card, np.ndarray] = {}
-        first = 0
+        first, new = 0, self._given.copy()
+        new[self._kept] = points
         for instance in self._instances:
             for card in instance.part.node_cards:
                 own = slice(first, first + len(self._rows[card]))
                 first = own.stop
-                rows = _in_part(instance, self.points[own], points[own], self._rows[card])
+                rows = _in_part(instance, self._given[own], new[own], self._rows[card])
                 if card in new_rows and not _same(new_rows[card], rows):
                     name = quoted(instance.part.name)
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")

@@ -15,7 +15,8 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields, word_ranges
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,10 +185,40 @@ class Deck:
         coordinates = TextFields(*(part[:, 1:] for part in (fields.begin, fields.end, fields.absent)))
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:]), coordinates
 
-    def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:
-        """Return all numbers of a card, (k,), line ends ignored."""
+    def element_rows(self, card: Card, width: int) -> tuple[np.ndarray, int]:
+        """Return the numbers of the elements of a card, (k, width) int64, and the number of lines that hold more.
+
+        An element begins in a line of its own and is continued in the next ones until it has `width` numbers; what else
+        the last of these lines holds is ignored, as Abaqus and CalculiX do.
+        """
         self._cursor.pos = card.begin
-        return self._cursor.read_numbers_to(label, card.end, dtype)
+        numbers = self._cursor.read_numbers_to("*ELEMENT", card.end, np.int64)
+        begins, _ = word_ranges(self._cursor.data, card.begin, card.end)
+        breaks = card.begin + np.flatnonzero(np.frombuffer(self.data, np.uint8)[card.begin : card.end] == NEWLINE[0])
+        counts = np.diff(np.searchsorted(begins, [card.begin, *breaks, card.end]))
+        counts = counts[counts > 0]
+        if (counts == width).all():
+            return numbers.reshape(-1, width), 0
+        starts, n_longer, have = [], 0, width
+        for at, count in zip((np.cumsum(counts) - counts).tolist(), counts.tolist(), strict=True):
+            if have >= width:
+                starts.append(at)
+                have = 0
+            elif have + count > width and not self._continues(begins[at]):
+                break
+            have += count
+            n_longer += have > width
+        else:
+            if have >= width:
+                return numbers[np.array(starts)[:, None] + np.arange(width)], n_longer
+        place = self.place(int(begins[starts[-1]]))
+        problem = f"*ELEMENT in {card.place}: the element in {place} has {have} numbers"
+        raise self.error(f"{problem}: expected {width}, its own and those of {width - 1} nodes", DAMAGED)
+
+    def _continues(self, at: int) -> bool:
+        """Return True if the line of an offset follows one that ends in a comma."""
+        end = self.data.rfind(NEWLINE, 0, at) + 1
+        return self.data[max(0, end - 4096) : end].rstrip()[-1:] == b","
 
 
 def _keyword_lines(data: bytes) -> Iterator[tuple[int, int]]:

@@ -6,10 +6,10 @@ import re
 
 #: Kinds by a pattern of their types; prefixes such as DC (heat) and suffixes such as R (reduced integration) vary.
 _PATTERNS = (
-    (r"[A-Z]*C3D(8|20|27)[A-Z]*", {"8": "hex", "20": "hex20", "27": "hex27"}),
-    (r"[A-Z]*C3D(4|5|6|10|13|15)[A-Z]*",
+    (r"(?:[A-Z]*C|F)3D(8|20|27)[A-Z]*", {"8": "hex", "20": "hex20", "27": "hex27"}),
+    (r"(?:[A-Z]*C|F)3D(4|5|6|10|13|15)[A-Z]*",
      {"4": "tetra", "5": "pyramid", "6": "wedge", "10": "tetra10", "13": "pyramid13", "15": "wedge15"}),
-    (r"SC(6|8)[A-Z]*", {"6": "wedge", "8": "hex"}),
+    (r"(?:SC|CSS)(6|8)[A-Z]*", {"6": "wedge", "8": "hex"}),
     (r"(?:S|STRI|M3D|SFM3D|R3D|DS|CPE|CPS|CAX|CPEG|DC2D|AC2D|DCAX|ACAX)(3|4|65|6|8|9)[A-Z0-9]*",
      {"3": "triangle", "4": "quad", "6": "triangle6", "65": "triangle6", "8": "quad8", "9": "quad9"}),
     (r"(?:T3D|T2D|DC1D|RB3D|R2D)(2|3)[A-Z]*", {"2": "line", "3": "line3"}),

@@ -91,6 +91,7 @@ class _Opener:
     def _open(self, file: Deck, card: Card) -> Deck:
         parents = [one.path.resolve() for one in file.lineage()]
         name = unquoted(card.options["INPUT"])
+        name = name if (self.root.path.parent / name).is_file() else name.replace("\\", "/")  # of Windows
         place = (
             f"*{card.name} in line {file.data.count(NEWLINE, 0, card.at) + 1} of {file.path.name} reads {quoted(name)}"
         )

@@ -5,8 +5,9 @@ Sets of an Abaqus file: their definitions, and the members that they have once e
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,8 +15,10 @@ from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import lookup
-from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.abaqus.deck import Card, Deck
+from hexmend.io.formats.abaqus.elements import kind_of
+
+T = TypeVar("T")
 
 #: Levels of sets that are members of sets.
 _MAX_DEPTH = 100
@@ -46,6 +49,8 @@ class SetDefinition:
         Data lines of GENERATE.
     ids : list of (k,) int64 arrays
         Numbers of the nodes or elements whose card names the set.
+    elements : list of str
+        Names of element sets whose nodes are members.
     by_instance : mapping of str to SetDefinition
         Data lines under INSTANCE=, by the instance's key.
     """
@@ -54,17 +59,8 @@ class SetDefinition:
     entries: list[str] = field(default_factory=list)
     ranges: list[tuple[int, int, int]] = field(default_factory=list)
     ids: list[np.ndarray] = field(default_factory=list)
+    elements: list[str] = field(default_factory=list)
     by_instance: dict[str, SetDefinition] = field(default_factory=dict)
-
-    def merged(self, other: SetDefinition) -> SetDefinition:
-        """Return a definition with the lines of both."""
-        lists = (self.entries + other.entries, self.ranges + other.ranges, self.ids + other.ids)
-        return SetDefinition(self.title, *lists, merged_sets(self.by_instance, other.by_instance))
-
-
-def merged_sets(first: dict[str, SetDefinition], second: dict[str, SetDefinition]) -> dict[str, SetDefinition]:
-    """Merge two tables of definitions by key."""
-    return first | {key: first[key].merged(more) if key in first else more for key, more in second.items()}
 
 
 class SetLookup:
@@ -82,11 +78,15 @@ class SetLookup:
     budget : MemoryBudget
     instances : mapping of str to SetLookup, optional
         Lookups of the instances that sets of the assembly may name, by key.
+    nodes_of : callable, optional
+        nodes_of(entry) returns the positions of the nodes of an element set; of node sets.
 
     Attributes
     ----------
     n_unknown : int
         Members that do not exist in the file.
+    unknown_sets : set of str
+        Keys of sets and instances that do not exist in the file.
     """
 
     def __init__(
@@ -97,8 +97,10 @@ class SetLookup:
         first: int,
         budget: MemoryBudget,
         instances: Mapping[str, SetLookup] | None = None,
+        nodes_of: Callable[[str], np.ndarray] | None = None,
     ):
         self.deck, self.sets, self.budget, self.instances = deck, sets, budget, instances or {}
+        self.nodes_of, self.unknown_sets = nodes_of, set[str]()
         self.order = np.argsort(ids, kind="stable") + first
         self.ids = np.sort(ids)
         self.n_unknown = 0
@@ -118,13 +120,14 @@ class SetLookup:
         """Positions of the members of a set, (k,) int64 ascending; `parents` are the sets whose entry it is."""
         if key not in self._members:
             if key not in self.sets:
-                raise self.deck.error(f"refers to the set {quoted(key)}, which does not exist")
+                self.unknown_sets.add(key)
+                return np.zeros(0, np.int64)
             if key in parents or len(parents) > _MAX_DEPTH:
                 raise self.deck.error(f"the set {quoted(key)} is a member of itself")
-            self._members[key] = self._evaluate(self.sets[key], (*parents, key))
+            self._members[key] = self.evaluate(self.sets[key], (*parents, key))
         return self._members[key]
 
-    def _evaluate(self, definition: SetDefinition, parents: tuple[str, ...] = ()) -> np.ndarray:
+    def evaluate(self, definition: SetDefinition, parents: tuple[str, ...] = ()) -> np.ndarray:
         """Positions of the members that a definition lists, ascending."""
         numbers = np.array([int(entry) for entry in definition.entries if is_number(entry)], np.int64)
         found = [self._positions(np.concatenate([numbers, *definition.ids]))]
@@ -136,10 +139,12 @@ class SetLookup:
             if not is_number(entry):
                 found.append(self.resolve(entry, parents))
                 self.budget.charge(found[-1].nbytes, "its sets")
+        found += [self.nodes_of(name) for name in definition.elements if self.nodes_of]
         for instance, lines in definition.by_instance.items():
-            if instance not in self.instances:
-                raise self.deck.error(f"a set refers to the instance {quoted(instance)}, which does not exist")
-            found.append(self.instances[instance]._evaluate(lines))
+            if instance in self.instances:
+                found.append(self.instances[instance].evaluate(lines))
+            else:
+                self.unknown_sets.add(instance)
         positions = np.unique(np.concatenate(found))
         self.budget.charge(positions.nbytes, "its sets")
         return positions
@@ -160,33 +165,41 @@ class ElementCard:
     type : str
         Element type, such as "C3D8R".
     kind : str or None
-        Kind of cell; None for types that are not read, of which only the numbers are known.
+        Kind of cell; None for types that are not read.
     ids : (k,) int64
     nodes : (k, width) int64
-        Numbers of nodes, in Abaqus's order.
+        Numbers of nodes, in Abaqus's order; of types that are not read -1 behind the last.
+    n_longer : int
+        Elements whose lines hold more numbers.
     """
 
     type: str
     kind: str | None
     ids: np.ndarray
     nodes: np.ndarray
+    n_longer: int = 0
 
     @classmethod
-    def of(cls, deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
-        """Elements of a card whose type is known.
-
-        Raises
-        ------
-        FileError
-            Unless its numbers are those of whole elements.
-        """
-        numbers = card.deck.numbers(card, "*ELEMENT", np.int64)
-        width = 1 + node_count(kind)
-        if numbers.size % width:
-            problem = f"*ELEMENT of type {quoted(type)} in {card.place} holds {numbers.size} numbers"
-            raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
-        rows = numbers.reshape(-1, width)
-        return cls(type, kind, rows[:, 0].copy(), rows[:, 1:])
+    def of(cls, card: Card) -> ElementCard:
+        """Elements of a card; raises `FileError` for one that has too few nodes for its type."""
+        type = card.options.get("TYPE", "").upper()
+        kind = kind_of(type)
+        if kind is not None:
+            rows, n_longer = card.deck.element_rows(card, 1 + node_count(kind))
+            return cls(type, kind, rows[:, 0].copy(), rows[:, 1:], n_longer)
+        lists, continued = [], False  # a line continues one that ends in a comma
+        for line in card.lines():
+            words = [word.strip() for word in line.split(",")]
+            numbers = [int(word) for word in words if is_number(word)]
+            if continued and lists:
+                lists[-1] += numbers
+            elif is_number(words[0]):
+                lists.append(numbers)
+            continued = line.endswith(",")
+        rows = np.full((len(lists), max(map(len, lists), default=1)), -1, np.int64)
+        for row, numbers in zip(rows, lists, strict=True):
+            row[: len(numbers)] = numbers
+        return cls(type, None, rows[:, 0].copy(), rows[:, 1:])
 
 
 @dataclass(eq=False)
@@ -201,21 +214,31 @@ class Part:
     element_cards: list[ElementCard] = field(default_factory=list)
     node_sets: dict[str, SetDefinition] = field(default_factory=dict)
     element_sets: dict[str, SetDefinition] = field(default_factory=dict)
+    node_surfaces: dict[str, SetDefinition] = field(default_factory=dict)
+    #: Numbers of nodes, and names of node sets, in cards that are not read.
+    named_nodes: list[str] = field(default_factory=list)
     #: Entries (element or set, face identifier) of each surface by name.
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
 
-    def merged(self, other: Part) -> Part:
-        """Return a part with the data of both."""
-        return Part(
-            self.name,
-            self.node_cards + other.node_cards,
-            self.node_ids + other.node_ids,
-            self.points + other.points,
-            self.element_cards + other.element_cards,
-            merged_sets(self.node_sets, other.node_sets),
-            merged_sets(self.element_sets, other.element_sets),
-            self.surfaces | {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()},
-        )
+    def last_given(self) -> np.ndarray:
+        """True for the nodes whose number no later line gives again, (n,) bool."""
+        ids = np.concatenate([*self.node_ids, np.zeros(0, np.int64)])
+        last = np.ones(len(ids), dtype=bool)
+        if (np.diff(ids) <= 0).any():
+            last[:] = False
+            last[len(ids) - 1 - np.unique(ids[::-1], return_index=True)[1]] = True
+        return last
+
+
+def merged(first: T, second: T) -> T:
+    """Merge two parts, or what they hold: lists one behind the other, tables key by key; the first gives the name."""
+    if isinstance(first, list):
+        return first + second
+    if isinstance(first, dict):
+        return first | {key: merged(first[key], more) if key in first else more for key, more in second.items()}
+    if isinstance(first, Part | SetDefinition):
+        return type(first)(*(merged(getattr(first, one.name), getattr(second, one.name)) for one in fields(first)))
+    return first
 
 
 @dataclass(eq=False)

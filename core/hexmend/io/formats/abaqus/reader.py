@@ -7,20 +7,26 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
-from hexmend.io.formats.abaqus.elements import kind_of
 from hexmend.io.formats.abaqus.includes import read_deck
-from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, SetDefinition, name_key, placement, unquoted
+from hexmend.io.formats.abaqus.model import (
+    ElementCard,
+    Instance,
+    Part,
+    SetDefinition,
+    merged,
+    name_key,
+    placement,
+    unquoted,
+)
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
 #: Cards that generate nodes or elements from others.
-_GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
+_GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
 #: Cards of conditions at nodes, which hold wherever the nodes are.
 _CONDITIONS = ("BOUNDARY", "CLOAD", "EQUATION", "MPC")
@@ -28,8 +34,20 @@ _CONDITIONS = ("BOUNDARY", "CLOAD", "EQUATION", "MPC")
 _IGNORED = ("HEADING", "INCLUDE", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
 #: Cards that say to what the next ones belong.
 _STRUCTURE = ("PART", "END PART", "INSTANCE", "END INSTANCE")
-#: Cards by which bodies touch.
-_CONTACT = {"CONTACT", "CONTACT INCLUSIONS", "CONTACT PAIR", "TIE"}
+#: Cards by which bodies touch or are joined.
+_JOINING = {
+    "CONTACT", "CONTACT INCLUSIONS", "CONTACT PAIR", "TIE", "EQUATION", "MPC", "COUPLING", "KINEMATIC COUPLING",
+    "DISTRIBUTING COUPLING", "RIGID BODY", "EMBEDDED ELEMENT", "CYCLIC SYMMETRY MODEL", "SHELL TO SOLID COUPLING",
+}  # fmt: skip
+#: Fields of the data lines that name nodes, by card.
+_NODE_FIELDS = {
+    "BOUNDARY": slice(1), "CLOAD": slice(1), "EQUATION": slice(None, None, 3), "MPC": slice(1, None),
+    "DISTRIBUTING COUPLING": slice(1), "KINEMATIC COUPLING": slice(1),
+}  # fmt: skip
+#: Parameters that name a node.
+_NODE_OPTIONS = ("REF NODE", "ROT NODE", "NODE", "CONTROL NODE")
+#: Number that no node or element exceeds.
+_LARGEST = 2**62
 #: Nodes of all instances that are never too many; more need a file of as many bytes.
 _ALWAYS_ALLOWED = 1_000_000
 
@@ -67,7 +85,7 @@ def read_node_cards(deck: Deck) -> list[Instance]:
             reader.part.node_cards.append(card)
         elif card.name in _STRUCTURE:
             _CARDS[card.name](reader, card)
-    return [*(replace(one, part=one.part.merged(one.own)) for one in reader.placed), Instance("", reader.assembly)]
+    return [*(replace(one, part=merged(one.part, one.own)) for one in reader.placed), Instance("", reader.assembly)]
 
 
 class _Reader:
@@ -82,7 +100,7 @@ class _Reader:
         self.other_cards = Counter()
 
     def model(self) -> tuple[list[Instance], Part, list[str], list[str]]:
-        """Read all cards; return the instances, the assembly, notes, and the names of cards by which bodies touch."""
+        """Read all cards; return the instances, the assembly, notes, and the names of the cards in `_JOINING`."""
         for card in self.deck.cards:
             reader = _CARDS.get(card.name)
             if card.name in _GENERATING:
@@ -92,6 +110,7 @@ class _Reader:
                 reader(self, card)
             elif card.name not in _IGNORED:
                 self.other_cards[card.name] += 1
+                self._add_named_nodes(card)
         if not self.deck.cards:
             raise self.deck.error("has no line that begins with *", check_suffix("an Abaqus file"))
         notes = []
@@ -105,8 +124,8 @@ class _Reader:
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:
             notes.append(unread_note(count_phrase(unused, "part without an instance", "parts without an instance")))
-        instances = [replace(one, part=one.part.merged(one.own)) for one in instances]
-        return instances, self.assembly, notes, sorted(self.other_cards.keys() & _CONTACT)
+        instances = [replace(one, part=merged(one.part, one.own)) for one in instances]
+        return instances, self.assembly, notes, sorted(self.other_cards.keys() & _JOINING)
 
     @property
     def placed(self) -> list[Instance]:
@@ -123,30 +142,22 @@ class _Reader:
         if "NSET" in card.options:
             _definition(self.part.node_sets, card.options["NSET"]).ids.append(ids)
 
+    def _add_named_nodes(self, card: Card) -> None:
+        """Add the nodes that a card which is not read needs, such as the reference node of *RIGID BODY."""
+        words = [card.options.get(name, "") for name in _NODE_OPTIONS]
+        if card.name in _NODE_FIELDS:
+            words += [word for row in card.fields() for word in row[_NODE_FIELDS[card.name]]]
+        self.part.named_nodes += [word for word in words if is_number(word)]
+
     def read_element(self, card: Card) -> None:
         """*ELEMENT, TYPE=..., ELSET=..."""
-        type = card.options.get("TYPE", "").upper()
-        kind = kind_of(type)
-        if kind is None:
-            elements = ElementCard(type, None, self._element_ids(card), np.zeros((0, 0), np.int64))
-        else:
-            elements = ElementCard.of(self.deck, card, type, kind)
+        elements = ElementCard.of(card)
         self.part.element_cards.append(elements)
         if "ELSET" in card.options:
             _definition(self.part.element_sets, card.options["ELSET"]).ids.append(elements.ids)
 
-    def _element_ids(self, card: Card) -> np.ndarray:
-        """Numbers of the elements of a card whose type is not known: the first fields of lines that continue none."""
-        ids, continued = [], False
-        for line in card.lines():
-            first = line.split(",", 1)[0].strip()
-            if not continued and is_number(first):
-                ids.append(int(first))
-            continued = line.endswith(",")
-        return np.array(ids, np.int64)
-
     def read_set(self, card: Card) -> None:
-        """*NSET, NSET=..., GENERATE, INSTANCE=...; or *ELSET, ELSET=..."""
+        """*NSET, NSET=..., GENERATE, INSTANCE=..., ELSET=...; or *ELSET, ELSET=..."""
         sets = self.part.node_sets if card.name == "NSET" else self.part.element_sets
         name = card.options.get(card.name, "")
         if not name:
@@ -155,6 +166,8 @@ class _Reader:
         if "INSTANCE" in card.options:
             instance = name_key(card.options["INSTANCE"])
             definition = definition.by_instance.setdefault(instance, SetDefinition(definition.title))
+        if card.name == "NSET" and "ELSET" in card.options:
+            definition.elements.append(card.options["ELSET"])
         for row in card.fields():
             if "GENERATE" not in card.options:
                 definition.entries += [word for word in row if word]
@@ -169,7 +182,7 @@ class _Reader:
         """*SURFACE, NAME=..., TYPE=ELEMENT or NODE."""
         name, type = card.options.get("NAME", ""), card.options.get("TYPE", "ELEMENT").upper()
         if type == "NODE":
-            _definition(self.part.node_sets, name).entries += [row[0] for row in card.fields() if row[0]]
+            _definition(self.part.node_surfaces, name).entries += [row[0] for row in card.fields() if row[0]]
         elif type == "ELEMENT":
             rows = self.part.surfaces.setdefault(unquoted(name), [])
             rows += [(row[0], (row[1:] or [""])[0].upper()) for row in card.fields() if row[0]]
@@ -182,7 +195,7 @@ class _Reader:
         self.part = self.parts[name_key(name)] = Part(unquoted(name))
 
     def read_instance(self, card: Card) -> None:
-        """*INSTANCE, NAME=..., PART=...: the cards up to *END INSTANCE belong to the instance alone."""
+        """*INSTANCE, NAME=, PART=, NSET=, ELSET=: the cards up to *END INSTANCE belong to the instance alone."""
         part = self.parts.get(name_key(card.options.get("PART", "")))
         if part is None:
             name = quoted(card.options.get("PART", ""))
@@ -191,6 +204,10 @@ class _Reader:
         translation, rotation = placement(self.deck, card.fields())
         name = unquoted(card.options.get("NAME", ""))
         self.instances.append(Instance(name, part, translation, rotation, self.part))
+        for option, sets in ("NSET", self.assembly.node_sets), ("ELSET", self.assembly.element_sets):
+            if option in card.options:
+                whole = _definition(sets, card.options[option]).by_instance
+                whole[name_key(name)] = SetDefinition("", ranges=[(0, _LARGEST, 1)])
         n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
         if n_nodes > _ALWAYS_ALLOWED + self.deck.size:
             problem = f"its {len(self.instances)} instances have more nodes than a file of its size can define"

@@ -122,9 +122,75 @@ def test_elements_of_other_types_are_left_out_with_a_note(tmp_path):
     assert mesh.cells[0].sets["glue"].tolist() == [0]
     assert mesh.node_sets["some"].tolist() == [0]
     assert "mixed" not in mesh.side_sets
-    assert any("2 elements of other types (COH3D8)" in note for note in mesh.notes)
+    assert any("2 elements of other types (COH3D8), whose nodes stay" in note for note in mesh.notes)
     assert any("1 member of a set does not exist" in note for note in mesh.notes)
     assert any("4 entries of surfaces" in note for note in mesh.notes)
+
+
+ONE_HEX = f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8, ELSET=E\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "is_longer"),
+    [
+        ("1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n", True),
+        ("1, 1, 2, 3, 4,\n5, 6, 7, 8, 9\n", True),
+        ("1, 1, 2, 3, 4\n5, 6, 7, 8\n", False),
+    ],
+)
+def test_an_element_is_read_from_its_own_lines(lines, is_longer, tmp_path):
+    second = "2, 2, 1, 4, 3, 6, 5, 8, 7\n"
+    (tmp_path / "a.inp").write_text(ONE_HEX + lines + second)
+    mesh = io.read(tmp_path / "a.inp", as_is=True)
+    assert mesh.hexes.tolist() == [list(range(8)), [1, 0, 3, 2, 5, 4, 7, 6]]
+    assert any("by more numbers" in note for note in mesh.notes) == is_longer
+
+
+def test_an_element_that_lacks_a_node_takes_none_of_the_next_one(tmp_path):
+    with pytest.raises(FileError, match="the element in line 11 has 8 numbers: expected 9"):
+        read(ONE_HEX + "1, 1, 2, 3, 4, 5, 6, 7\n2, 1, 2, 3, 4, 5, 6, 7, 8\n", tmp_path)
+
+
+def test_node_sets_may_be_those_of_element_sets_and_share_names_with_node_surfaces(tmp_path):
+    deck = ONE_HEX + "1, 1, 2, 3, 4, 5, 6, 7, 8\n*NODE\n9, 5, 5, 5\n*NSET, NSET=of E, ELSET=E\n*NSET, NSET=TOP\n5, 6\n"
+    deck += "*SURFACE, TYPE=NODE, NAME=TOP\nTOP\n*SURFACE, TYPE=NODE, NAME=of E\n9,\n"
+    sets = {name: nodes.tolist() for name, nodes in read(deck, tmp_path).node_sets.items()}
+    assert sets == {"of E": list(range(8)), "TOP": [4, 5], "of E_2": [8]}
+
+
+def test_sets_that_refer_to_missing_sets_are_read_with_a_note(tmp_path):
+    mesh = read(ONE_HEX + "1, 1, 2, 3, 4, 5, 6, 7, 8\n*ELSET, ELSET=BOTH\nE, GONE\n", tmp_path)
+    assert mesh.hex_sets["BOTH"].tolist() == [0]
+    assert "Sets refer to 'GONE', which the file does not have: ignored." in mesh.notes
+
+
+def test_the_last_of_two_lines_of_a_node_counts_and_is_replaced(tmp_path):
+    path, deck = tmp_path / "a.inp", f"*NODE\n7, 9, 9, 9\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+    mesh = read_content(path, deck)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    assert "1 node is given again by a later line, which counts." in mesh.notes
+    assert write_as_given(tmp_path / "b.inp", displaced(mesh, [6], [0, 0, 0.25]), Original(path, mesh)).replaced
+    assert (tmp_path / "b.inp").read_text() == deck.replace("7, 1, 1, 1", "7, 1, 1, 1.25")
+
+
+def test_nodes_of_elements_that_are_not_read_and_of_cells_inside_stay(tmp_path):
+    io.write(tmp_path / "a.inp", grid(4))
+    text = (tmp_path / "a.inp").read_text()
+    inner = io.read(tmp_path / "a.inp").node_data["id"][np.flatnonzero(grid(4).free)]
+    spring, mass, *quad = inner[[0, 8, 13, 14, 17, 16]]
+    text += f"*ELEMENT, TYPE=SPRINGA\n901, 1, {spring}\n*ELEMENT, TYPE=MASS\n902, {mass}\n"
+    text += f"*ELEMENT, TYPE=S4R\n903, {', '.join(map(str, quad))}\n"
+    mesh = read(text, tmp_path)
+    kept = np.isin(mesh.node_data["id"], [spring, mass, *quad])
+    np.testing.assert_array_equal(grid(4).free & ~mesh.free, kept)
+    assert mesh.immovable[kept].all()
+    assert any("1 element of other types (SPRINGA), whose nodes stay" in note for note in mesh.notes)
+
+
+def test_reference_nodes_of_cards_that_are_not_read_are_used(tmp_path):
+    deck = ONE_HEX + "1, 1, 2, 3, 4, 5, 6, 7, 8\n*NODE\n9, 5, 5, 5\n10, 6, 6, 6\n*RIGID BODY, ELSET=E, REF NODE=9\n"
+    (finding,) = examine(read(deck, tmp_path))
+    assert (finding.kind, finding.nodes.tolist()) == ("unused-nodes", [9])
 
 
 def test_surfaces_stay_on_their_elements_when_blocks_are_reordered(tmp_path):
@@ -144,7 +210,15 @@ def test_surfaces_stay_on_their_elements_when_blocks_are_reordered(tmp_path):
         assert {tuple(p) for p in one.points[one.hexes[hexa][FACES[face]]]} == {tuple(p) for p in UNIT_CUBE[:4]}
 
 
-@pytest.mark.parametrize("card", ["*CONTACT PAIR, INTERACTION=I\nwest, east", "*Tie, name=T\nwest, east", "*CONTACT"])
+@pytest.mark.parametrize(
+    "card",
+    [
+        "*CONTACT PAIR, INTERACTION=I\nwest, east",
+        "*Tie, name=T\nwest, east",
+        "*CONTACT",
+        "*EQUATION\n2\n2, 1, 1., 9, 1, -1.",
+    ],
+)
 def test_touching_bodies_of_a_deck_with_contact_are_fit_and_stay_apart(card, tmp_path):
     path, shifted = tmp_path / "contact.inp", UNIT_CUBE + [1, 0, 0]
     nodes = "".join(f"{k + 9}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(shifted))
