@@ -28,6 +28,12 @@ class Edits:
     end: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
     texts: list[bytes] = field(default_factory=list)
 
+    @classmethod
+    def of(cls, rows: list[tuple[int, int, bytes]]) -> Edits:
+        """Make the edits of rows of a begin, an end and a text, in any order."""
+        begin, end = np.array([row[:2] for row in rows], np.int64).reshape(-1, 2).T
+        return cls(begin, end, [text for *_, text in rows]).in_order()
+
     def __len__(self) -> int:
         return len(self.begin)
 

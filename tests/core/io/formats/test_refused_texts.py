@@ -33,7 +33,7 @@ SPOILT = {
     ],
     "a.bdf": [
         ("GRID,2,,", "\0", "holds bytes that are not text"),
-        ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
+        ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5, which the file does not have"),
         ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
         ("GRID,2,,1.0", "GRID,2,,1_0", "GRID in line 3 holds '1_0': expected a number"),
         ("GRID,2,,1.0", f"GRID,2,,1.{'0' * 80}", "expected a number"),
@@ -41,7 +41,7 @@ SPOILT = {
         (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
         (",7,8\n", ",7,77\n", "node 77 is used"),
         (",7,8\n", ",7,8.5\n", "CHEXA in line 10 holds '8.5': expected a whole number"),
-        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 reads cards from another file"),
+        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 of a.bdf reads 'more.bdf', which does not exist"),
         ("CHEXA", "CGAP", "holds no hexahedra"),
         (GRIDS, "", "has no GRID"),
     ],

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from hexmend.solver_checks import Report
 
 
+#: Conditions of a fit mesh by the problem that it has.
+_CONDITIONS = {"parts": "its parts need not be connected", "unused-nodes": "its unused nodes may stay"}
+
+
 @dataclass(frozen=True)
 class Judgement:
     """Judgement of a mesh by its hexes.
@@ -25,8 +29,8 @@ class Judgement:
     Parameters
     ----------
     fit : bool
-        True if no hex is invalid, at its corners or between them, the doctor finds no problem (separate parts are
-        none), and no check of the user's solver fails.
+        True if no hex is invalid, at its corners or between them, the doctor finds no problem but those in
+        `_CONDITIONS`, and no check of the user's solver fails.
     sentence : str
     command : str
         The next command as a line for the shell; "" if none helps.
@@ -61,8 +65,9 @@ class Judgement:
             Jacobians of the hexes of second order.
         """
         total, inverted = quality.inverted.size, int(np.count_nonzero(quality.inverted))
-        later = "mid-nodes" if inverted else ""  # which follow the corners when these are untangled
-        if repairable := _kinds(finding for finding in findings if finding.mendable and finding.kind != later):
+        later = ["mid-nodes"] if inverted else []  # which follow the corners when these are untangled
+        later += _CONDITIONS
+        if repairable := _kinds(finding for finding in findings if finding.mendable and finding.kind not in later):
             return cls(False, f"To be repaired before solving: {repairable}.", _command("repair", path))
         if inverted:
             verb = "is" if inverted == 1 else "are"
@@ -76,11 +81,12 @@ class Judgement:
             undecided = f" ({quality.n_undecided:,} of them undecided)" if quality.n_undecided else ""
             sentence = f"Not fit for solving: {counted} invalid inside, between positive corners{undecided}."
             return cls(False, sentence, _command("smooth", path))
-        if faults := [finding for finding in findings if finding.kind != "parts"]:
+        if faults := [finding for finding in findings if finding.kind not in _CONDITIONS]:
             return cls(False, f"Not fit for solving: {_kinds(faults)}.", shlex.join(["hexmend", path]))
         if checks is not None and checks.verdict == "failed":
             return cls(False, f"Not fit for solving. {checks.sentence}", _command("smooth", path))
-        condition = "if its parts need not be connected" if findings else ""
+        conditions = [_CONDITIONS[finding.kind] for finding in findings]
+        condition = f"if {' and '.join(conditions)}" if conditions else ""
         limit, _ = METRICS["scaled-jacobian"].acceptable
         poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
         if poor:

@@ -13,30 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.coordinates.deck_files import DeckFile, Reference
 from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields, word_ranges
-
-
-@dataclass(frozen=True, eq=False)
-class Reference:
-    """Name of an included file in the file that includes it.
-
-    Parameters
-    ----------
-    parent : Deck
-    begin, end : int
-        Byte range of the name in the parent, with quotes if it has them.
-    name : str
-        The name without quotes.
-    """
-
-    parent: Deck
-    begin: int
-    end: int
-    name: str
-
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
@@ -83,66 +63,31 @@ class Card:
         return [[field.strip() for field in _split_fields(line.removesuffix(","))] for line in self.lines()]
 
 
-class Deck:
-    """A file of cards, and parsers of their data lines; a file that is included twice is two of them.
+class Deck(DeckFile):
+    """A file of cards, and parsers of their data lines.
 
     Parameters
     ----------
-    path : Path
-    data : bytes
-        Its content.
-    reference : Reference or None
-        None for the deck itself, whose path errors name.
+    path, given, reference
+        As of `DeckFile`.
 
     Attributes
     ----------
-    given : bytes
-        The content as it is.
     data : bytes
         The content, with blanks in place of comments and lines that end in "\n"; offsets are those of `given`.
-    included : list of Deck
-        Files that it includes.
     cards : list of Card
         Cards of the file and of those that it includes, in order.
     """
 
-    def __init__(self, path: Path, data: bytes, reference: Reference | None = None):
-        self.given, self.reference = data, reference
-        self.included: list[Deck] = []
+    def __init__(self, path: Path, given: bytes, reference: Reference | None = None):
+        super().__init__(path, given, reference)
         self.cards: list[Card] = []
-        if b"\r" in data:
-            data = data.replace(b"\r\n", b" \n").replace(b"\r", b"\n")
-        if b"**" in data:
-            data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), data)
-        self.path, self.data = path, data
+        if b"**" in self.data:
+            self.data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), self.data)
 
     @cached_property
     def _cursor(self) -> ByteCursor:
         return ByteCursor(self.path, self.data.replace(b",", b" "))
-
-    def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
-        """Make the error to raise."""
-        return FileError(self.lineage()[-1].path, problem, remedy)
-
-    def place(self, at: int) -> str:
-        """Return the place of an offset, such as "line 12", or "line 3 of nodes.inp" in an included file."""
-        line = f"line {self.data.count(NEWLINE, 0, at) + 1}"
-        return line if self.reference is None else f"{line} of {self.path.name}"
-
-    def walk(self) -> Iterator[Deck]:
-        """Iterate over the file and all files that it includes, included ones last."""
-        yield self
-        for one in self.included:
-            yield from one.walk()
-
-    def lineage(self) -> list[Deck]:
-        """Return the file, the one that includes it, and so on up to the deck."""
-        return [self, *(self.reference.parent.lineage() if self.reference else [])]
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file and of all files that it includes."""
-        return sum(len(one.data) for one in self.walk())
 
     def own_cards(self) -> Iterator[Card]:
         """Iterate over the cards whose keywords are in the file itself, in order."""

@@ -1,4 +1,4 @@
-"""Nastran's bulk data (.bdf, .nas, .dat): grid points and elements, whose properties are sets.
+"""Nastran's bulk data (.bdf, .nas, .dat; .fem of OptiStruct): grid points and elements, whose properties are sets.
 
 *NX Nastran Quick Reference Guide*, "Bulk Data Entries": small fields of 8 columns, large fields of 16 columns, and free
 fields between commas; GRID, CHEXA, CTETRA, CPENTA, CPYRAM, CQUAD*, CTRIA* and one-dimensional elements.
@@ -25,12 +25,13 @@ _FIRST = re.compile(
     rb"(?:BEGIN[ \t,]*BULK|SOL[ \t]+[0-9A-Z]|CEND|NASTRAN[ \t]|ID[ \t]|GRID\*?[ \t,]+[0-9]|CHEXA\*?[ \t,]+[0-9])",
     re.IGNORECASE,
 )
+_BEGIN = re.compile(rb"^BEGIN[ \t,]+BULK", re.IGNORECASE | re.MULTILINE)
 
 
 register(
     name="nastran",
     title="Nastran",
-    suffixes=(".bdf", ".nas", ".dat"),
+    suffixes=(".bdf", ".nas", ".dat", ".fem"),
     encodings=("ascii",),
     read=deferred("hexmend.io.formats.nastran.reader:read"),
     write=deferred("hexmend.io.formats.nastran.writer:write"),
@@ -38,6 +39,7 @@ register(
     stored_names=_Properties(),
     limitations=deferred("hexmend.io.formats.nastran.writer:limitations"),
     exact=False,  # a column has room for 12 to 14 digits
-    matches=lambda head: _FIRST.match(head) is not None,
+    matches=lambda head: _FIRST.match(head) is not None or _BEGIN.search(head) is not None,
     locate=deferred("hexmend.io.formats.nastran.coordinates:locate"),
+    included=deferred("hexmend.io.formats.nastran.files:included_files"),
 )

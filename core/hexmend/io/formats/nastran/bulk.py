@@ -16,6 +16,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import is_number, quoted
+from hexmend.io.coordinates.deck_files import DeckFile
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
@@ -45,6 +46,8 @@ class Cards:
         Fields of all cards of the part.
     begins, ends : (k,) int64
         Ranges of the fields of each card after its name, continuations joined.
+    place : callable
+        place(line) names a line, for errors.
     """
 
     path: Path
@@ -53,6 +56,7 @@ class Cards:
     texts: np.ndarray
     begins: np.ndarray
     ends: np.ndarray
+    place: Callable[[int], str] = "line {}".format
 
     def fields(self, first: int, last: int) -> np.ndarray:
         """Fields first to last - 1 of each card after its name, (k, last - first) bytes; blank where it has fewer."""
@@ -70,7 +74,7 @@ class Cards:
 
     def error(self, at: int, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise for a card, whose name and line begin the sentence."""
-        return FileError(self.path, f"{self.name} in line {self.lines[at]} {problem}", remedy)
+        return FileError(self.path, f"{self.name} in {self.place(int(self.lines[at]))} {problem}", remedy)
 
     def _parsed(self, first: int, last: int, dtype: type, parse: Callable[[str, int], Any]) -> np.ndarray:
         fields = self.fields(first, last)
@@ -108,6 +112,8 @@ class BulkData:
         The file; errors name it.
     data : bytes
         Its content, with lines that end in "\\n".
+    locate : callable, optional
+        locate(offset) returns the file of an offset, and the offset in that file.
 
     Attributes
     ----------
@@ -115,8 +121,8 @@ class BulkData:
         Offsets of the first byte of each line, and of its line end.
     """
 
-    def __init__(self, path: Path, data: bytes):
-        self._path, self._data = path, data
+    def __init__(self, path: Path, data: bytes, locate: Callable[[int], tuple[DeckFile, int]] | None = None):
+        self._path, self._data, self._locate = path, data, locate
         self._padded = np.frombuffer(data + b" " * _COLUMNS, np.uint8)
         ends = np.flatnonzero(self._padded[: len(data)] == ord("\n"))
         self.end = ends if data.endswith(b"\n") else np.append(ends, len(data))
@@ -143,7 +149,15 @@ class BulkData:
                 if kinds[kind] == b"ENDDATA":
                     return
                 at = np.flatnonzero(which == kind)
-                yield Cards(self._path, kinds[kind].decode("latin-1"), lines[at], texts, bounds[at], bounds[at + 1])
+                name = kinds[kind].decode("latin-1")
+                yield Cards(self._path, name, lines[at], texts, bounds[at], bounds[at + 1], self.place)
+
+    def place(self, line: int) -> str:
+        """Name a line, from 1, such as "line 12", or "line 3 of nodes.bdf" in an included file."""
+        if self._locate is None:
+            return f"line {line}"
+        file, at = self._locate(int(self.start[line - 1]))
+        return file.place(at)
 
     def _cut(self, begin: int, end: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Cut lines into cards: names, first lines from 1, fields of all cards, and their bounds (k + 1,)."""
@@ -179,10 +193,8 @@ class BulkData:
             declared, own = (text.lstrip(b"+*").replace(b" ", b"") for text in (mark, head))
             if declared and own and declared != own:
                 card = names[:row][names[:row] != b""][-1].decode("latin-1")
-                problem = (
-                    f"line {lines[row]} continues a card as {quoted(head.decode('latin-1'))}, but {card} before it"
-                )
-                problem += f" declares {quoted(declared.decode('latin-1'))}"
+                place, texts = self.place(int(lines[row])), [quoted(one.decode("latin-1")) for one in (head, declared)]
+                problem = f"{place} continues a card as {texts[0]}, but {card} before it declares {texts[1]}"
                 raise FileError(self._path, problem, "Put each continuation behind its card.")
 
 

@@ -26,6 +26,17 @@ KINDS_OF_CARD = {
 #: upper face; kinds without an entry have one order in both.
 ORDER = {"hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15], "wedge15": [*range(9), 12, 13, 14, 9, 10, 11]}
 
+#: Solid elements, whose cards have nothing behind the nodes.
+SOLIDS = ("CHEXA", "CTETRA", "CPENTA", "CPYRAM", "CPYRA")
+
+#: Cards that are not read but hold or join grid points, and the first field that may name one.
+NODES_OF_CARD = {
+    "CBUSH": 2, "CBUSH1D": 2, "CELAS1": 2, "CELAS2": 2, "CELAS3": 2, "CELAS4": 2, "CDAMP1": 2, "CDAMP2": 2, "CGAP": 2,
+    "CONM1": 1, "CONM2": 1, "CMASS1": 2, "CMASS2": 2, "RBAR": 1, "RBE1": 1, "RBE2": 1, "RBE3": 2, "RROD": 1,
+}  # fmt: skip
+#: Other cards by which bodies touch or are joined.
+JOINING = {"MPC", "BCTSET", "BCONP", "BCTABLE", "BGSET", "CONTACT", "TIE"}
+
 #: Name of the element set that holds the elements of a property; group 1 is the property's number (PID).
 PROPERTY_SET = re.compile(r"property ([1-9][0-9]{0,7})\Z")
 

@@ -13,15 +13,19 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import read_text_bytes
+from hexmend.io.coordinates.deck_files import DeckFile, write_files
+from hexmend.io.coordinates.edits import Edits
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.cards import is_exact, real_field
-from hexmend.io.formats.nastran.reader import BulkModel
+from hexmend.io.formats.nastran.files import BulkFiles
+from hexmend.io.formats.nastran.reader import BulkModel, GridPoints
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.terminal_text import count_phrase
 
 #: Columns of a field in the small and in the large layout, and fields of a line.
 _SMALL, _LARGE = (8, 8), (16, 4)
+#: Digits that a field of 8 columns holds, with the sign and the point: smaller changes are not written.
+_SMALL_DIGITS = 6
 #: Index of the first coordinate among the fields of a card: number, coordinate system, x, y, z.
 _FIRST = 2
 
@@ -122,14 +126,12 @@ _DIGITS = "Fields of 16 columns hold 12 to 14 digits of the new coordinates."
 
 def locate(path: Path) -> NastranCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    data = read_text_bytes(path)
-    bulk = BulkData(path, data.replace(b"\r\n", b" \n").replace(b"\r", b"\n"))
-    model = BulkModel(path)
+    files = BulkFiles(path)
+    bulk, model = BulkData(path, files.data, files.locate), BulkModel(path)
     for cards in bulk.cards():
-        if cards.name == "GRID":
-            model.add_grid_points(cards)
-    lines, _, points = map(np.concatenate, zip(*model.grid_points, strict=True))
-    return NastranCoordinates(data, bulk, points, lines - 1)
+        model.add_position(cards)
+    grid = model.grid_points()
+    return NastranCoordinates(files, bulk, grid, grid.points)
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,59 +140,63 @@ class NastranCoordinates:
 
     Parameters
     ----------
-    data : bytes
-        Content of the file.
+    files : BulkFiles
     bulk : BulkData
-        The same, with lines of the same offsets that end in "\\n".
+        Their text.
+    grid : GridPoints
     points : (n, 3) float64
-    lines : (n,) int64
-        First line of each node's card, from 0.
     """
 
-    data: bytes
+    files: BulkFiles
     bulk: BulkData
+    grid: GridPoints
     points: np.ndarray
-    lines: np.ndarray
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
-        changed = ~(points == self.points)
-        moved = np.flatnonzero(changed.any(axis=1))
-        moved = moved[np.argsort(self.lines[moved], kind="stable")]
-        rows = zip(self.lines[moved].tolist(), points[moved].tolist(), changed[moved].tolist(), strict=True)
-        at, n_widened, pieces = 0, 0, []
-        for line, point, which in rows:
-            texts = [real_field(value) if new else None for value, new in zip(point, which, strict=True)]
-            ranges = self._ranges(line)
-            lines = replace_in_card([self.data[slice(*one)].decode("latin-1") for one in ranges], texts)
-            n_widened += len(lines) > len(ranges)
-            (begin, end), after = ranges[0], ranges[-1]
-            line_end = b"\r\n" if self.data[end : end + 2] == b"\r\n" else b"\n"
-            between = self.data[end : after[0]] if len(ranges) > 1 else line_end
-            pieces += [self.data[at:begin], between.join(one.encode("latin-1") for one in lines)]
-            at = after[1]
-        with open(files.add(target), "wb") as out:
-            out.writelines(pieces)
-            out.write(memoryview(self.data)[at:])
+        new, given = self.grid.in_file(points), self.grid.given
+        changed = ~(new == given)
+        held = np.abs(new - given) <= 0.5 * 10.0 ** (np.floor(np.log10(np.abs(given).max() or 1.0)) - _SMALL_DIGITS + 1)
+        edits: dict[DeckFile, list[tuple[int, int, bytes]]] = {}
+        n_widened, exact = 0, True
+        for node in np.flatnonzero(changed.any(axis=1)).tolist():
+            lines = self._lines(int(self.grid.lines[node]) - 1)
+            before = [text.decode("latin-1") for *_, text in lines]
+            which = changed[node] if is_large(before[0]) else changed[node] & ~held[node]
+            if not which.any():
+                continue
+            values = [x if is_new else None for x, is_new in zip(new[node].tolist(), which, strict=True)]
+            exact = exact and all(value is None or is_exact(value) for value in values)
+            after = replace_in_card(before, [None if value is None else real_field(value) for value in values])
+            if len(after) > len(lines):
+                n_widened += 1
+                file, _, end, _ = lines[0]
+                after = [("\r\n" if file.given[end : end + 2] == b"\r\n" else "\n").join(after)]
+            for (file, begin, end, _), text in zip(lines, after, strict=True):
+                edits.setdefault(file, []).append((begin, end, text.encode("latin-1")))
+        tables = {file: Edits.of(rows) for file, rows in edits.items()}
+        own = write_files(self.files.root, tables, target, files, lambda path: BulkFiles(path).root)
         widened = count_phrase(n_widened, "GRID card has", "GRID cards have")
         notes = [f"{widened} become GRID* to hold all digits of the new coordinates."] if n_widened else []
-        exact = all(map(is_exact, points[changed].tolist()))
-        return (*notes, *([] if exact else [_DIGITS]))
+        return (*own, *notes, *([] if exact else [_DIGITS]))
 
-    def _ranges(self, line: int) -> list[tuple[int, int]]:
-        """Byte ranges of the line of a card, and of the line that continues it where that holds a coordinate."""
-        ranges = [self._range(line)]
-        if not is_large(self.data[slice(*ranges[0])].decode("latin-1")):
-            return ranges
+    def _lines(self, line: int) -> list[tuple[DeckFile, int, int, bytes]]:
+        """The line of a card, and the line that continues it where that holds a coordinate: file, range and text."""
+        lines = [self._line(line)]
+        if not is_large(lines[0][3].decode("latin-1")):
+            return lines
         for k in range(line + 1, len(self.bulk.start)):
-            begin, end = self._range(k)
-            text = self.data[begin:end].partition(b"$")[0]
+            after = self._line(k)
+            text = after[3].partition(b"$")[0]
             if text.strip():
                 head = (text.split(b",")[0] if b"," in text else text.expandtabs(8)[:8]).strip()
-                return [*ranges, (begin, end)] if head[:1] in (b"", b"+", b"*") else ranges
-        return ranges
+                return [*lines, after] if head[:1] in (b"", b"+", b"*") else lines
+        return lines
 
-    def _range(self, line: int) -> tuple[int, int]:
-        """Byte range of a line without its end."""
+    def _line(self, line: int) -> tuple[DeckFile, int, int, bytes]:
+        """File, byte range and text of a line without its end."""
         begin, end = int(self.bulk.start[line]), int(self.bulk.end[line])
-        return begin, end - (end > begin and self.data[end - 1 : end + 1] == b"\r\n")
+        file, first = self.files.locate(begin)
+        last = first + end - begin
+        last -= last > first and file.given[last - 1 : last + 1] == b"\r\n"
+        return file, first, last, file.given[first:last]

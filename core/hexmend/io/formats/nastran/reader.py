@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +13,18 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
 from hexmend.io.formats.nastran.bulk import BulkData, Cards
-from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, ORDER, element_layout
+from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
+from hexmend.io.formats.nastran.files import BulkFiles
+from hexmend.io.formats.nastran.systems import CoordinateSystems
+from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
+
+_FEWER_NODES = "Write the elements of second order with the nodes of their corners and edges alone."
 
 
 def read(path: Path) -> Mesh:
@@ -31,13 +41,13 @@ def read(path: Path) -> Mesh:
     Raises
     ------
     FileError
-        For a card that is malformed, a coordinate system other than the basic one, or INCLUDE.
+        For a card that is malformed, a coordinate system that does not exist, or an included file that does not.
     MeshError
         From `Mesh`.
     """
-    bulk = BulkData(path, read_text_bytes(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
+    files = BulkFiles(path)
     model = BulkModel(path)
-    for cards in bulk.cards():
+    for cards in BulkData(path, files.data, files.locate).cards():
         model.add(cards)
     return mesh_of(path, model.content())
 
@@ -53,29 +63,51 @@ class BulkModel:
 
     def __init__(self, path: Path):
         self._path = path
-        self.grid_points: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []  # lines, ids, coordinates
+        self._grids: list[Cards] = []
+        self._default_system = 0
+        self.systems = CoordinateSystems()
+        self._held: list[np.ndarray] = []  # numbers of grid points that cards hold which are not read
+        self._joining: list[str] = []
         self._elements: dict[str, list[np.ndarray]] = {}  # by kind; a row is a line, an id, a property and nodes
         self._other_cards: dict[str, int] = {}
         self._n_partial = 0  # elements with some of their mid-nodes only
 
     def add(self, cards: Cards) -> None:
         """Add cards of one name."""
-        if cards.name in ("GRID", "GRDSET"):
-            self.add_grid_points(cards)
-        elif cards.name in KINDS_OF_CARD:
+        if self.add_position(cards):
+            return
+        if cards.name in KINDS_OF_CARD:
             self._add_elements(cards)
-        elif cards.name.startswith("INCLUDE"):
-            raise cards.error(0, "reads cards from another file", "Insert its content there.")
-        else:
-            self._other_cards[cards.name] = self._other_cards.get(cards.name, 0) + len(cards.lines)
+            return
+        self._other_cards[cards.name] = self._other_cards.get(cards.name, 0) + len(cards.lines)
+        first = NODES_OF_CARD.get(cards.name)
+        if first is not None:
+            fields = cards.fields(first, int((cards.ends - cards.begins).max()))
+            self._held.append(fields[np.strings.isdigit(fields)].astype(np.int64))
+        if cards.name in JOINING or first is not None:
+            self._joining.append(cards.name)
 
-    def add_grid_points(self, cards: Cards) -> None:
-        """Add the points of GRID; check the coordinate system of these, and that of GRDSET for those without one."""
-        for at in np.flatnonzero(cards.integers(1, 2))[:1].tolist():
-            problem = f"is in the coordinate system {cards.integers(1, 2)[at, 0]}: expected 0, x, y and z"
-            raise cards.error(at, problem, "Write the file with all grid points in the basic coordinate system.")
+    def add_position(self, cards: Cards) -> bool:
+        """Add grid points, or the systems of their coordinates; returns False for other cards."""
         if cards.name == "GRID":
-            self.grid_points.append((cards.lines, cards.integers(0, 1)[:, 0], cards.reals(2, 5)))
+            self._grids.append(cards)
+        elif cards.name == "GRDSET":
+            self._default_system = int(cards.integers(1, 2)[0, 0])
+        elif re.fullmatch("CORD[12][RCS]", cards.name):
+            self.systems.add(cards)
+        else:
+            return False
+        return True
+
+    def grid_points(self) -> GridPoints:
+        """Return the grid points of all cards; raises `FileError` where there are none."""
+        if not self._grids:
+            raise FileError(self._path, "has no GRID", check_suffix("a Nastran bulk data file"))
+        parts = [(one.lines, one.integers(0, 2), one.reals(2, 5)) for one in self._grids]
+        lines, numbers, given = map(np.concatenate, zip(*parts, strict=True))
+        ids, systems = numbers.T
+        systems = np.where(systems == 0, self._default_system, systems)
+        return GridPoints(self._grids[0], lines, ids, systems, given, self.systems)
 
     def _add_elements(self, cards: Cards) -> None:
         first, linear, quadratic, n_corners, n_nodes = element_layout(cards.name)
@@ -84,6 +116,11 @@ class BulkModel:
         for at in np.flatnonzero((nodes[:, :n_corners] == 0).any(axis=1))[:1].tolist():
             found = np.count_nonzero(nodes[at, :n_corners])
             raise cards.error(at, f"has {found} nodes: expected {n_corners}", DAMAGED)
+        if cards.name in SOLIDS:
+            behind = cards.fields(first + n_nodes, max(first + n_nodes + 1, int((cards.ends - cards.begins).max())))
+            for at in np.flatnonzero((behind != b"").any(axis=1))[:1].tolist():
+                found = n_nodes + np.count_nonzero(behind[at] != b"")
+                raise cards.error(at, f"has {found} nodes: expected {n_corners} to {n_nodes}", _FEWER_NODES)
         properties = numbers[:, 1] if first == 2 else np.zeros_like(cards.lines)
         rows = np.column_stack([cards.lines, numbers[:, 0], properties, nodes])
         n_mid = np.count_nonzero(nodes[:, n_corners:], axis=1)
@@ -95,10 +132,8 @@ class BulkModel:
 
     def content(self) -> Content:
         """Return the content that all cards make together."""
-        if not self.grid_points:
-            raise FileError(self._path, "has no GRID", check_suffix("a Nastran bulk data file"))
-        _, node_ids, points = map(np.concatenate, zip(*self.grid_points, strict=True))
-        notes = []
+        grid = self.grid_points()
+        node_ids, notes = grid.ids, []
         if self._n_partial:
             partial = f"{self._n_partial:,} elements have some of their mid-nodes only"
             notes.append(f"{partial}: they are read with their corners only.")
@@ -107,7 +142,82 @@ class BulkModel:
             notes.append(unread_note(f"other cards ({words})"))
         blocks = [_block(self._path, kind, np.concatenate(rows), node_ids) for kind, rows in self._elements.items()]
         blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
-        return Content(points, tuple(blocks), {ID: node_ids}, notes=tuple(notes))
+        used = np.zeros(len(node_ids), dtype=bool)
+        for block in blocks:
+            used[block.nodes] = True
+        if n_unplaced := grid.unplaced(used):
+            words = count_phrase(
+                n_unplaced, "grid point that no element uses is", "grid points that no element uses are"
+            )
+            notes.append(f"{words} in a coordinate system that the file does not have: read as x, y and z.")
+        held = np.isin(node_ids, np.concatenate([*self._held, list(self.systems.grid_points)]))
+        if self._held and held.any():
+            notes.append(f"{count_phrase(int(held.sum()), 'grid point')} of {some_names(self._joining)} stay.")
+        fields = {CONTACT_CARDS: self._joining} if self._joining else {}
+        pinned = held if held.any() else None
+        return Content(grid.points, tuple(blocks), {ID: node_ids}, {}, {}, pinned, fields, tuple(notes))
+
+
+@dataclass(frozen=True, eq=False)
+class GridPoints:
+    """Grid points in the order of their cards.
+
+    Parameters
+    ----------
+    cards : Cards
+        Some of the cards, for errors.
+    lines : (n,) int64
+        First line of each card, from 1.
+    ids : (n,) int64
+    systems : (n,) int64
+        Number of each one's coordinate system.
+    given : (n, 3) float64
+        Coordinates in that system.
+    known : CoordinateSystems
+    """
+
+    cards: Cards
+    lines: np.ndarray
+    ids: np.ndarray
+    systems: np.ndarray
+    given: np.ndarray
+    known: CoordinateSystems
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """Basic coordinates, (n, 3) float64."""
+        points = self.given.copy() if self.systems.any() else self.given
+        for number, rows in self._groups():
+            points[rows] = self.known.to_basic(number, self.given[rows], self._point)
+        return points
+
+    def in_file(self, points: np.ndarray) -> np.ndarray:
+        """Convert basic coordinates to those of the cards, (n, 3); unchanged points have the coordinates given."""
+        local, changed = points.copy(), ~(points == self.points).all(axis=1)
+        for number, rows in self._groups():
+            local[rows] = self.known.from_basic(number, points[rows], self._point)
+            same = rows[~changed[rows]]
+            local[same] = self.given[same]
+        return local
+
+    def unplaced(self, used: np.ndarray) -> int:
+        """Number of points whose system does not exist; raises `FileError` if an element uses one."""
+        unknown = ~np.isin(self.systems, [0, *self.known.numbers])
+        if (wrong := unknown & used).any():
+            at = int(wrong.argmax())
+            place = f"GRID in {self.cards.place(int(self.lines[at]))} is in the coordinate system {self.systems[at]}"
+            raise FileError(self.cards.path, f"{place}, which the file does not have", "Add its CORD card.")
+        return int(unknown.sum())
+
+    def _groups(self) -> Iterator[tuple[int, np.ndarray]]:
+        for number in np.unique(self.systems[self.systems != 0]).tolist():
+            if number in self.known.numbers:
+                yield number, np.flatnonzero(self.systems == number)
+
+    def _point(self, number: int) -> np.ndarray:
+        """Basic coordinates of a grid point that defines a coordinate system, (3,)."""
+        at = int(find_ids(self.cards.path, self.ids, np.array([number]), "node")[0])
+        return self.known.to_basic(int(self.systems[at]), self.given[at : at + 1], self._point)[0]
 
 
 def _block(path: Path, kind: str, rows: np.ndarray, node_ids: np.ndarray) -> Block:

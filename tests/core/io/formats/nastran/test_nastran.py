@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import Cells, FileError, Mesh, io
+from hexmend.doctor import examine
 from hexmend.io import Original, write_as_given
 from hexmend.io.formats.nastran.cards import real_field
 from hexmend.mesh.hexahedron import UNIT_CUBE
@@ -279,3 +280,92 @@ def test_blocks_of_cards_are_replaced_too(layout, tmp_path):
     assert written.replaced
     assert any("GRID*" in note for note in written.notes) == (layout is small_fields)
     np.testing.assert_allclose(io.read(tmp_path / "out.bdf").points, points, rtol=1e-11)
+
+
+# Decks of several files, coordinate systems, and cards that hold grid points.
+
+
+SYSTEMS = {
+    "R": (np.eye(3) * 2, lambda p: p),
+    "C": (np.eye(3), lambda p: [np.hypot(p[0], p[1]), np.rad2deg(np.arctan2(p[1], p[0])), p[2]]),
+    "S": (np.eye(3), lambda p: [np.linalg.norm(p), np.rad2deg(np.arccos(p[2] / np.linalg.norm(p))),
+                                np.rad2deg(np.arctan2(p[1], p[0]))]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("by_points", [False, True])
+@pytest.mark.parametrize("kind", SYSTEMS)
+def test_grid_points_in_other_coordinate_systems_are_transformed_and_replaced(kind, by_points, tmp_path):
+    """The system has its origin at (1, 2, 3), z along x, and x along y."""
+    place = SYSTEMS[kind][1]
+    local = [place(((x, y, z) @ np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]])).tolist()) for x, y, z in UNIT_CUBE + 0.5]
+    grids = "".join(f"GRID*,{k + 1},7,{a!r},{b!r}\n*,{c!r}\n" for k, (a, b, c) in enumerate(np.array(local).tolist()))
+    origin, on_z, in_xz = [1.0, 2.0, 3.0], [2.0, 2.0, 3.0], [1.0, 9.0, 3.0]
+    if by_points:
+        own = "".join(f"GRID,{k},,{x},{y},{z}\n" for k, (x, y, z) in enumerate([origin, on_z, in_xz], 101))
+        system = f"{own}CORD1{kind},7,101,102,103\n"
+    else:
+        system = f"CORD2{kind},7,,{','.join(map(str, origin + on_z))}\n,{','.join(map(str, in_xz))}\n"
+    text = CUBE.replace(GRIDS, system + grids)
+    mesh = read(text, tmp_path)
+    first = 3 if by_points else 0
+    np.testing.assert_allclose(mesh.points[first:], UNIT_CUBE + 0.5 + origin, atol=1e-12)
+    assert not by_points or mesh.pinned[:3].all()  # they define the system
+    moved = mesh.points.copy()
+    moved[first] += 0.125
+    assert write_as_given(tmp_path / "b.bdf", mesh.with_points(moved), Original(tmp_path / "a.bdf", mesh)).replaced
+    np.testing.assert_allclose(io.read(tmp_path / "b.bdf").points, moved, atol=1e-9)
+    pairs = zip(text.split("\n"), (tmp_path / "b.bdf").read_text().split("\n"), strict=True)
+    assert sum(a != b for a, b in pairs) <= 2
+
+
+def test_a_point_of_an_unknown_system_is_refused_only_where_an_element_uses_it(tmp_path):
+    mesh = read(CUBE.replace("CHEXA", "GRID,99,5,1.,2.,3.\nCHEXA", 1), tmp_path)
+    assert "1 grid point that no element uses is in a coordinate system" in mesh.notes[0]
+    with pytest.raises(FileError, match="refers to itself"):
+        read(CUBE.replace("GRID,1,,", "CORD1R,5,1,2,3\nGRID,1,5,", 1), tmp_path)
+
+
+@pytest.mark.parametrize("name", ["'sub/grids.bdf'", '"sub/grids.bdf"', "sub\\grids.bdf", "'sub/\ngrids.bdf'"])
+def test_included_files_are_read_and_replaced_under_a_new_name(name, tmp_path):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/grids.bdf").write_text(GRIDS, newline="\r\n")
+    deck = CUBE.replace(GRIDS, f"$ ours\nINCLUDE {name} $ its points\n")
+    mesh = read(deck, tmp_path)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    moved = mesh.with_points(mesh.points + np.where(np.arange(8)[:, None] == 2, 0.25, 0))
+    written = write_as_given(tmp_path / "b.bdf", moved, Original(tmp_path / "a.bdf", mesh))
+    assert "sub/grids.bdf is written as sub/grids-b.bdf." in written.notes
+    np.testing.assert_array_equal(io.read(tmp_path / "b.bdf").points, moved.points)
+    new = (tmp_path / "sub/grids-b.bdf").read_bytes().decode()
+    assert new == GRIDS.replace("GRID,3,,1.0,1.0,0.0", "GRID,3,,1.25,1.25,0.25").replace("\n", "\r\n")
+    (tmp_path / "sub/grids.bdf").write_text(GRIDS.replace("GRID,3,,1.0", "GRID,3,,x"))
+    with pytest.raises(FileError, match=r"GRID in line 3 of grids\.bdf holds 'x'"):
+        io.read(tmp_path / "a.bdf")
+
+
+def test_changes_below_what_fields_of_8_columns_hold_are_not_written(tmp_path):
+    mesh = read(CUBE, tmp_path)
+    for step, same in ((4e-6, True), (4e-5, False)):
+        written = write_as_given(
+            tmp_path / "b.bdf", mesh.with_points(mesh.points + step), Original(tmp_path / "a.bdf", mesh)
+        )
+        assert written.replaced
+        assert ((tmp_path / "b.bdf").read_text() == (tmp_path / "a.bdf").read_text()) == same
+
+
+def test_a_hex_of_more_than_20_nodes_is_an_error(tmp_path):
+    with pytest.raises(FileError, match="CHEXA in line 10 has 22 nodes: expected 8 to 20"):
+        read(CUBE.replace(",7,8\n", ",7,8,1,2,3,4,5,6\n,7,8,1,2,3,4,5,6\n"), tmp_path)
+
+
+def test_grid_points_of_springs_and_rigid_elements_stay(tmp_path):
+    io.write(tmp_path / "a.bdf", grid(3))
+    text = (tmp_path / "a.bdf").read_text()
+    inner = io.read(tmp_path / "a.bdf").node_data["id"][np.flatnonzero(grid(3).free)]
+    text = text.replace(
+        "ENDDATA", f"GRID,900,,9.,9.,9.\nCBUSH,901,1,{inner[0]},{inner[3]}\nRBE2,902,900,123,{inner[5]}\nENDDATA"
+    )
+    mesh = read(text, tmp_path)
+    assert set(mesh.node_data["id"][mesh.pinned]) == {inner[0], inner[3], inner[5], 900}
+    assert examine(mesh) == ()
