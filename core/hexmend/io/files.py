@@ -23,7 +23,14 @@ from hexmend.io.coordinates.replacement import (
     is_same_file,
     replace_coordinates,
 )
-from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
+from hexmend.io.format_lookup import (
+    check_has_mesh,
+    every_format,
+    format_by_place,
+    format_of,
+    suffixes_of,
+    writable_format,
+)
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.file_progress import FileAction, file_operation, report, stage
 from hexmend.io.storage.readable import check_readable, reading
@@ -62,6 +69,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
+    if path.is_dir() or format_by_place(path):
+        check_has_mesh(path)
     if format_by_place(path) is None:
         check_readable(path, "a mesh file or the folder of an OpenFOAM case")
     format = format_of(path)

@@ -54,6 +54,13 @@ def format_by_place(path: Path) -> Format | None:
         return None
 
 
+def check_has_mesh(path: Path) -> None:
+    """Raise `FileError` for a folder of some format that has no mesh yet."""
+    for format in FORMATS.values():
+        if format.place:
+            format.place.check_has_mesh(path)
+
+
 def format_of(path: Path) -> Format:
     """Find the format of a file: by its place or suffix, unless the content is of another format."""
     placed = format_by_place(path)

@@ -39,6 +39,9 @@ class FolderPlace(Protocol):
     def contains(self, path: Path) -> bool:
         """Return True if a path is of the format, whatever the content of a file is."""
 
+    def check_has_mesh(self, path: Path) -> None:
+        """Raise `FileError` for a folder of the format that has no mesh yet; it says how to make one."""
+
     def parts(self, path: Path) -> list[Path]:
         """Return the files that a mesh is read from."""
 

@@ -52,13 +52,13 @@ def two_dimensional_motion(mesh: Mesh) -> LinearMotion | None:
     Raises
     ------
     MeshError
-        For a hex of which one of two opposite faces alone is on such a side, and for sides that are no copies of each
-        other; the message names a hex or node.
+        Where no hex has two opposite faces on such sides, and for sides that are no copies of each other; the message
+        names a hex or node.
     """
     side = _side_of_faces(mesh, (EMPTY, WEDGE))
     if (side < 0).all():
         return None
-    _check_opposite(mesh, side)
+    side = _with_opposite(mesh, side)
     names, moves = list(mesh.side_sets), ~_nodes_of_other_faces(mesh, side)
     types = np.array([mesh.side_set_types.get(name, "") for name in names])
     motion = LinearMotion()
@@ -94,14 +94,16 @@ def _side_of_faces(mesh: Mesh, types: tuple[str, ...]) -> np.ndarray:
     return side
 
 
-def _check_opposite(mesh: Mesh, side: np.ndarray) -> None:
-    """Raise unless the faces opposite to those on flat sides are on such sides too."""
+def _with_opposite(mesh: Mesh, side: np.ndarray) -> np.ndarray:
+    """Leave out faces on flat sides whose opposite ones are on none, such as those on an axis: their nodes stay."""
     alone = (side[:, ::2] < 0) != (side[:, 1::2] < 0)
-    if alone.any():
+    answer = np.where(np.repeat(alone, 2, axis=1), -1, side)
+    if (answer < 0).all():
         at = int(alone.any(axis=1).argmax())
         name = list(mesh.side_sets)[side[at].max()]
         kind = mesh.side_set_types[name]
         raise MeshError(f"hex {at} has a face on {name!r}, of the type {kind}, and none opposite: expected one layer")
+    return answer
 
 
 def _nodes_of_other_faces(mesh: Mesh, side: np.ndarray) -> np.ndarray:

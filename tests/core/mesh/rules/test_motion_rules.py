@@ -265,6 +265,14 @@ def test_two_layers_are_refused_and_stay():
     assert with_two_dimensional_motion(stays).notes == stays.notes
 
 
+def test_a_face_of_a_flat_side_without_a_partner_stays_and_the_others_move():
+    mesh = layer()
+    axis = mesh.side_sets["walls"][:3]
+    sides = {**mesh.side_sets, "walls": mesh.side_sets["walls"][3:], "axis": axis}
+    alone = mesh.replace(side_sets=sides, side_set_types={**mesh.side_set_types, "axis": "empty"})
+    np.testing.assert_array_equal(with_two_dimensional_motion(alone).free, with_two_dimensional_motion(mesh).free)
+
+
 def test_sides_that_are_no_copies_are_refused():
     mesh = layer()
     points = mesh.points.copy()

@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.base.format import Capability, deferred, register
-from hexmend.io.formats.openfoam.case import PARTS, SUFFIXES, ZONES, existing_part, find_case, times
+from hexmend.io.formats.openfoam.case import PARTS, SUFFIXES, ZONES, check_has_mesh, existing_part, find_case, times
 from hexmend.mesh.mesh import Mesh
 
 __all__ = ["find_case", "times"]
@@ -21,6 +21,10 @@ class CasePlace:
     def contains(self, path: Path) -> bool:
         """Return True for the folder or a file of a case; for a `.foam` file even if there is no mesh beside it."""
         return path.suffix.lower() in SUFFIXES or find_case(path) is not None
+
+    def check_has_mesh(self, path: Path) -> None:
+        """Raise `FileError` for a case whose mesh is divided among processes or not built."""
+        check_has_mesh(path)
 
     def parts(self, path: Path) -> list[Path]:
         """Return the files of polyMesh that a mesh is read from; none without a mesh."""

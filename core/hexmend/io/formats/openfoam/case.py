@@ -70,6 +70,23 @@ def find_case(path: Path) -> CaseFiles | None:
     return next((files for folder in nested if (files := _files_of(folder)) is not None), None)
 
 
+def check_has_mesh(path: Path) -> None:
+    """Raise `FileError` for the folder or `.foam` file of a case without a mesh; it names the command that makes one.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    folder = path if path.is_dir() else path.absolute().parent
+    if find_case(path) is None and (folder / "processor0").is_dir():
+        remedy = "Run reconstructParMesh -constant in it, or open a part, such as processor0."
+        raise FileError(path, "is a case whose mesh is divided among processes (processor0...)", remedy)
+    if find_case(path) is None and (folder / "system" / "controlDict").is_file():
+        has_blocks = any((folder / at / "blockMeshDict").is_file() for at in ("system", "constant/polyMesh"))
+        mesher = "blockMesh" if has_blocks else "its mesher, such as blockMesh,"
+        raise FileError(path, "is a case without constant/polyMesh: its mesh is not built", f"Run {mesher} in it.")
+
+
 def case_folder(path: Path) -> Path:
     """Return the folder of the case that is written under a path: the path itself, or the folder of its `.foam` file.
 

@@ -206,14 +206,22 @@ def test_real_cases_are_read(real_mesh):
     assert (plate.n_hexes, plate.side_set_types["frontAndBack"]) == (1800, "empty")
 
 
-def test_a_decomposed_or_foreign_folder_is_refused_with_advice(tmp_path):
+def test_a_case_that_is_divided_or_not_built_or_none_is_refused_with_advice(tmp_path):
     write_cube(tmp_path / "cube/processor0")
+    with pytest.raises(io.files.FileError, match=r"divided among processes .* Run reconstructParMesh .*processor0\."):
+        io.read(tmp_path / "cube")
+    shutil.rmtree(tmp_path / "cube/processor0")
     with pytest.raises(io.files.FileError, match="is a folder: expected a mesh file or the folder of an OpenFOAM case"):
         io.read(tmp_path / "cube")
     (tmp_path / "cube" / "cube.foam").touch()
     with pytest.raises(io.files.FileError, match="there is no OpenFOAM mesh next to it"):
         io.read(tmp_path / "cube" / "cube.foam")
-    shutil.rmtree(tmp_path / "cube")
+    (tmp_path / "cube/system").mkdir()
+    for name in ("controlDict", "blockMeshDict"):
+        (tmp_path / "cube/system" / name).touch()
+    for path in (tmp_path / "cube", tmp_path / "cube" / "cube.foam"):
+        with pytest.raises(io.files.FileError, match=r"its mesh is not built\. Run blockMesh in it\."):
+            io.read(path)
 
 
 def test_the_times_of_a_region_are_its_own(tmp_path):
