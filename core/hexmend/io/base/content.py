@@ -62,6 +62,13 @@ def from_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[in
     return nodes[:, np.argsort(order[kind])] if kind in order else nodes
 
 
+#: Ways to a mesh that can be read.
+_SPLIT = (
+    "Let the mesher make hexahedra; Gmsh divides tetrahedra into them: "
+    "gmsh MODEL -3 -setnumber Mesh.SubdivisionAlgorithm 2."
+)
+_ORDERS = "Write it with elements of order 1 or 2; Gmsh does: gmsh MODEL -3 -order 2."
+
 #: True while a file is read whose nodes without finite coordinates are to be interpolated.
 INTERPOLATE_MISSING: ContextVar[bool] = ContextVar("INTERPOLATE_MISSING", default=False)
 
@@ -195,7 +202,9 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     others = [block for block in content.blocks if block.kind not in HEX_KINDS and len(block)]
     if not hexes:
         found = f", but {_inventory(others, content.unread)}" if others or content.unread else ""
-        raise FileError(path, f"holds no hexahedra{found}", "Hexmend works on hexahedral meshes only.")
+        remedy = _SPLIT if {block.kind for block in others} >= {"tetra"} else "Hexmend works on hexahedral meshes only."
+        remedy = _ORDERS if any("of order" in kind for kind in content.unread) else remedy
+        raise FileError(path, f"holds no hexahedra{found}", remedy)
     for block in content.blocks:
         if len(block):
             check_node_numbers(block.nodes, len(content.points))

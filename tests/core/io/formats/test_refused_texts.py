@@ -113,7 +113,7 @@ WHOLE = {
     "a.msh": [
         ("hello", "does not begin with $MeshFormat"),
         ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "is of version '1'"),
-        ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "Save it as 4.1 with Gmsh"),
+        ("$MeshFormat\n3 0 8\n$EndMeshFormat\n", "Save it as 4.1 with Gmsh"),
         ("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n", "gives the byte order"),
         (HEAD, "has no section $Nodes"),
         (HEAD + NODES, "has no section $Elements"),

@@ -147,7 +147,12 @@ class _Reader:
         width = self.store.dimensions.get(f"num_att_in_blk{k}", 0)
         if not width or f"attrib{k}" not in self.store:
             return {}
-        values, names = self.variables.array(f"attrib{k}", count, width), self.variables.strings(f"attrib_name{k}")
+        try:
+            values = self.variables.array(f"attrib{k}", count, width)
+        except FileError as error:
+            self.notes.append(unread_note(f"the attributes of block {k} ({error.problem})"))
+            return {}
+        names = self.variables.strings(f"attrib_name{k}")
         names = [names[j] if j < len(names) and names[j] else f"attribute {j + 1}" for j in range(width)]
         return {name: np.ascontiguousarray(column) for name, column in zip(names, values.T, strict=True)}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,9 +15,10 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids, lookup
-from hexmend.io.base.remedies import unread_note
+from hexmend.io.base.remedies import some_names, unread_note
 from hexmend.io.formats.gmsh.sections import (
     KIND_OF_TYPE,
+    NAMES,
     ORDER,
     PHYSICAL_NAMES,
     DataSection,
@@ -53,10 +55,12 @@ def _content(path: Path, sections: Sections) -> Content:
         if values is None:
             raise FileError(path, f"has no section {name}", "Write the file again with the program that made it.")
     notes, blocks, budget = list(sections.notes), [], MemoryBudget(path, path.stat().st_size)
-    n_other = sum(len(part.tags) for part in sections.elements if part.type not in KIND_OF_TYPE)
-    if n_other:
-        types = "types that Hexmend does not keep (orders above 2, prisms of 18 nodes)"
-        notes.append(unread_note(f"{n_other:,} elements of {types}"))
+    unread = Counter()
+    for part in sections.elements:
+        if part.type not in KIND_OF_TYPE:
+            unread[NAMES.get(part.type, f"type {part.type}")] += len(part.tags)
+    if unread:
+        notes.append(unread_note(f"{unread.total():,} elements of types that are not kept ({some_names(unread)})"))
     partitioned = any(part.partitions is not None and part.partitions.any() for part in sections.elements)
     cell_data = {data.name for data in sections.data if not data.of_nodes}
     partition = unused_name(PARTITION, cell_data) if PARTITION in cell_data else PARTITION
@@ -74,7 +78,7 @@ def _content(path: Path, sections: Sections) -> Content:
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL_NAMES: sections.names} if sections.names else {}
     node_data = {**_data(sections.data, True, sections.tags, budget), ID: sections.tags}
-    return Content(sections.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
+    return Content(sections.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes), unread=unread)
 
 
 def _block(

@@ -1,4 +1,4 @@
-"""Reader of Gmsh's format, versions 1, 2 and 4.1, text and (except version 1) binary, section by section.
+"""Reader of Gmsh's format, versions 1, 2, 4.0 and 4.1, text and (except version 1) binary, section by section.
 
 It also locates the coordinates of a file in its section $Nodes.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import struct
 from codecs import BOM_UTF8
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,9 +28,12 @@ from hexmend.mesh.mesh import Mesh
 #: Readers of sections by version and keyword.
 READERS = {
     1: {"$NOD": version_2.read_nod, "$ELM": version_2.read_elm},
-    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic},
+    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": version_2.read_periodic}
+    | {"$ParametricNodes": version_2.read_parametric_nodes},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
     | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": version_4.read_periodic},
+    40: {"$Entities": partial(version_4.read_entities, is_4_0=True), "$Nodes": version_4.read_nodes_4_0}
+    | {"$Elements": partial(version_4.read_elements, is_4_0=True)},
 }
 
 
@@ -82,13 +86,13 @@ def read(path: Path) -> Mesh:
 
 
 def read_format(source: ByteCursor) -> tuple[int, str]:
-    """Version, 2 or 4, and byte order, "<" or ">", of a binary file or "" of a text."""
+    """Version, 2, 4 (for 4.1) or 40 (for 4.0), and byte order, "<" or ">", of a binary file or "" of a text."""
     words = source.next_line().split()
     if len(words) != 3:
         raise source.error("$MeshFormat has no version, file type and data size")
     version, file_type, size = words
-    if version not in ("2", "2.0", "2.1", "2.2", "4.1"):
-        problem = f"is of version {quoted(version)} of the format: expected 2.2 or 4.1"
+    if version not in ("2", "2.0", "2.1", "2.2", "4", "4.0", "4.1"):
+        problem = f"is of version {quoted(version)} of the format: expected 1, 2, 4.0 or 4.1"
         raise source.error(problem, "Save it as 4.1 with Gmsh.")
     if file_type not in ("0", "1") or size != "8":
         found = f"{quoted(file_type)} and {quoted(size)}"
@@ -102,7 +106,7 @@ def read_format(source: ByteCursor) -> tuple[int, str]:
         source.is_text = False
     if source.next_line() != "$EndMeshFormat":
         raise source.error("$MeshFormat ends without $EndMeshFormat")
-    return int(version[0]), order
+    return 40 if version in ("4", "4.0") else int(version[0]), order
 
 
 def _read_physical_names(source: ByteCursor, sections: Sections) -> None:
@@ -133,7 +137,7 @@ def locate(path: Path) -> LocatedCoordinates:
         key, begin = source.next_line(), source.pos
         if key == "$MeshFormat":
             version, order = read_format(source)
-        elif key in ("$NOD", "$Nodes"):
+        elif key in ("$NOD", "$Nodes", "$ParametricNodes"):
             READERS[version][key](source, order, sections)
             return _binary(source, order, sections) if order else _text(source, begin, sections)
         else:

@@ -29,6 +29,11 @@ TYPE_OF_KIND = {kind: type for type, kind in KIND_OF_TYPE.items()}
 #: Number of nodes of the element types that are left out.
 _OTHER_NODE_COUNTS = {13: 18, 14: 14, 20: 9, 21: 10, 22: 12, 23: 15, 24: 15, 25: 21, 26: 4, 27: 5, 28: 6}
 _OTHER_NODE_COUNTS |= {29: 20, 30: 35, 31: 56, 36: 16, 37: 25, 38: 36, 90: 40, 91: 75, 92: 64, 93: 125}
+#: Names of some types that are left out.
+NAMES = {
+    13: "type PRISM18", 36: "type QUAD of order 3", 37: "type QUAD of order 4", 29: "type TETRA of order 3",
+    92: "type HEXA of order 3", 93: "type HEXA of order 4",
+}  # fmt: skip
 
 #: VTK's node order: vtk = gmsh[ORDER[kind]]. Gmsh orders edges by their lower corner, and the faces of a hex as z-, y-,
 #: x-, x+, y+, z+.

@@ -34,6 +34,23 @@ def read_text_nodes(source: ByteCursor, name: str, end: bytes, sections: Section
     sections.tags, sections.points = node_tags(source, rows[:, 0]), np.ascontiguousarray(rows[:, 1:])
 
 
+def read_parametric_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $ParametricNodes: a count, then tag, coordinates, dimension, entity and its parameters of each node."""
+    if order:
+        raise source.error("has binary $ParametricNodes", "Save it as 4.1 with Gmsh, or as text.")
+    values = source.read_numbers_until("$ParametricNodes", b"$EndParametricNodes", np.float64)
+    count, at, starts = int(values[0]) if values.size and np.isfinite(values[0]) else 0, 1, []
+    while at + 6 <= values.size:
+        starts.append(at)
+        at += 6 + {1: 1, 2: 2}.get(int(values[at + 4]), 0)
+    if len(starts) != count or at != values.size:
+        raise source.error(f"$ParametricNodes holds {len(starts)} whole nodes of {count}")
+    begins = np.array(starts, np.int64)
+    sections.places = [(one + 1, 1, 0) for one in starts]
+    sections.tags = node_tags(source, values[begins])
+    sections.points = values[begins[:, None] + np.arange(1, 4)]
+
+
 def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Elements: a count, then tag, type, number of tags, tags and nodes of each element.
 

@@ -1,4 +1,4 @@
-"""Sections of Gmsh's format of version 4.1, text and binary."""
+"""Sections of Gmsh's format of versions 4.1 and 4.0, text and binary."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ class SectionNumbers:
             tags[part] = node_tags(self.source, rows[:, 0].astype(np.float64))
         return tags
 
-    def take_elements(self, count: int, width: int) -> tuple[np.ndarray, np.ndarray]:
-        """Take the tags, (count,) int64, and the nodes, (count, width) int, of elements."""
+    def take_elements(self, count: int, width: int, code: str) -> tuple[np.ndarray, np.ndarray]:
+        """Take the tags, (count,) int64, and the nodes, (count, width) int, of elements; `code` is as of `take`."""
         if self.values is not None:
-            rows = self.take(count * (1 + width), "u8").reshape(count, 1 + width).astype(np.int64, copy=False)
+            rows = self.take(count * (1 + width), code).reshape(count, 1 + width).astype(np.int64, copy=False)
             return rows[:, 0], rows[:, 1:]
-        blocks = self.source.binary_blocks(f"${self.name}", count, 1 + width, f"{self.order}u8")
+        blocks = self.source.binary_blocks(f"${self.name}", count, 1 + width, f"{self.order}{code}")
         return split_tags(blocks, count, width)
 
     def integers(self, count: int, code: str = "u8") -> list[int]:
@@ -62,13 +62,16 @@ class SectionNumbers:
             raise self.source.error(f"${self.name} ends without $End{self.name} before {self.source.location}")
 
 
-def read_entities(source: ByteCursor, order: str, sections: Sections) -> None:
-    """Read $Entities: points, curves, surfaces and volumes with their physical groups."""
+def read_entities(source: ByteCursor, order: str, sections: Sections, is_4_0: bool = False) -> None:
+    """Read $Entities: points, curves, surfaces and volumes with their physical groups.
+
+    Points of version 4.0 have a box like all others.
+    """
     numbers = SectionNumbers(source, order, "Entities", np.float64)
     for dimension, count in enumerate(numbers.integers(4)):
         for _ in range(count):
             (tag,) = numbers.integers(1, "i4")
-            sections.entities[dimension, tag] = _groups(numbers, dimension)
+            sections.entities[dimension, tag] = _groups(numbers, dimension, is_4_0)
     numbers.close()
 
 
@@ -92,9 +95,9 @@ def read_partitioned_entities(source: ByteCursor, order: str, sections: Sections
     numbers.close()
 
 
-def _groups(numbers: SectionNumbers, dimension: int) -> list[int]:
+def _groups(numbers: SectionNumbers, dimension: int, is_4_0: bool = False) -> list[int]:
     """Take the rest of an entity after its tag: its box, its physical groups, which are returned, and its boundary."""
-    numbers.take(6 if dimension else 3, "f8")
+    numbers.take(6 if dimension or is_4_0 else 3, "f8")
     groups = numbers.integers(numbers.integers(1)[0], "i4")
     if dimension:
         numbers.take(numbers.integers(1)[0], "i4")
@@ -120,15 +123,44 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
         raise source.error(f"$Nodes holds {len(sections.tags)} nodes: expected {count}")
 
 
-def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
+def read_nodes_4_0(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $Nodes of version 4.0: the tag and the coordinates of each node, entity by entity."""
+    numbers = SectionNumbers(source, order, "Nodes", np.float64)
+    blocks, count = numbers.integers(2)
+    tags, points = [], []
+    for _ in range(blocks):
+        _, dimension, parametric = numbers.integers(3, "i4")
+        (n_nodes,) = numbers.integers(1)
+        width = 3 + (dimension if parametric else 0)
+        if order:
+            row = np.dtype([("tag", f"{order}i4"), ("x", f"{order}f8", width)])
+            sections.places.append((source.pos + 4, n_nodes, row.itemsize))
+            rows = source.read_binary("$Nodes", n_nodes, 1, row)[:, 0]
+            tags.append(rows["tag"].astype(np.int64))
+            points.append(native(rows["x"])[:, :3])
+        else:
+            sections.places.append((numbers.at + 1, n_nodes, 1 + width))
+            rows = numbers.take(n_nodes * (1 + width), "f8").reshape(n_nodes, 1 + width)
+            tags.append(node_tags(source, rows[:, 0]))
+            points.append(rows[:, 1:4])
+    numbers.close()
+    sections.tags, sections.points = joined(tags, np.int64), np.ascontiguousarray(joined(points, np.float64, 3))
+    if len(sections.tags) != count:
+        raise source.error(f"$Nodes holds {len(sections.tags)} nodes: expected {count}")
+
+
+def read_elements(source: ByteCursor, order: str, sections: Sections, is_4_0: bool = False) -> None:
     """Read $Elements: the tags and nodes of the elements of each entity and type."""
     numbers = SectionNumbers(source, order, "Elements", np.int64)
-    blocks, count = numbers.integers(4)[:2]
+    blocks, count = numbers.integers(2 if is_4_0 else 4)[:2]
     sections.elements, seen = [], 0
     for _ in range(blocks):
         dimension, entity, type = numbers.integers(3, "i4")
+        if is_4_0:
+            dimension, entity = entity, dimension
         (n_elements,) = numbers.integers(1)
-        tags, nodes = numbers.take_elements(n_elements, nodes_per_element(source.path, type))
+        width = nodes_per_element(source.path, type)
+        tags, nodes = numbers.take_elements(n_elements, width, "i4" if is_4_0 else "u8")
         groups = sections.entities.get((dimension, entity), ())
         number = sections.partitions.get((dimension, entity))
         partition = None if number is None else np.full(n_elements, number)

@@ -32,6 +32,11 @@ WIDTH_BY_TYPE |= {VOXEL: 8, PIXEL: 4}
 
 #: Types with any number of nodes: the type that a cell with so many nodes is read as.
 _VARIABLE_WIDTH = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
+#: Hexes of second order that are labelled as those of first order.
+_VARIABLE_WIDTH |= {HEXAHEDRON: {20: 25, 27: 29}}
+#: Lagrange and Bézier cells of order 1: line, triangle, quad, tetrahedron, hex, wedge, pyramid.
+_ORDER_1 = ({2: 3}, {3: 5}, {4: 9}, {4: 10}, {8: 12}, {6: 13}, {5: 14})
+_VARIABLE_WIDTH |= dict(enumerate(_ORDER_1, 68)) | dict(enumerate(_ORDER_1, 75))
 #: Names of types that are not read, for messages.
 NAMES = {
     0: "VTK_EMPTY_CELL", 2: "VTK_POLY_VERTEX", 4: "VTK_POLY_LINE", 6: "VTK_TRIANGLE_STRIP", 7: "VTK_POLYGON",

@@ -14,16 +14,21 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
+from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import check_suffix, unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
 from hexmend.io.formats.vtk.legacy_writer import write
+from hexmend.io.formats.vtk.structured import grid_points, structured_cells
 from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes in which the first line must end.
 _HEAD = 4096
 _REMEDIES = {"UNSTRUCTURED_GRID": "an unstructured grid of hexahedra", "POLYDATA": "PolyData, or write it as STL"}
+#: Data sets whose hexes follow from their DIMENSIONS, and their coordinates along x, y and z.
+_STRUCTURED = ("STRUCTURED_GRID", "RECTILINEAR_GRID", "STRUCTURED_POINTS")
+_AXES = ("X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES")
 #: Number of components of attributes that do not state it.
 _WIDTHS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "GLOBAL_IDS": 1, "PEDIGREE_IDS": 1}
 
@@ -87,7 +92,8 @@ class _LegacyReader:
             raise cursor.error(f"line 3 is {quoted(kind)}: expected ASCII or BINARY")
         cursor.is_text = kind == "ASCII"
         words = cursor.next_line().upper().split()
-        if words != ["DATASET", dataset]:
+        self.is_structured = dataset == "UNSTRUCTURED_GRID" and words[1:] and words[1] in _STRUCTURED
+        if words != ["DATASET", dataset] and not self.is_structured:
             found = words[1] if len(words) > 1 and words[0] == "DATASET" else "missing"
             raise cursor.error(f"its dataset is {found}: expected {dataset}", f"Convert it to {_REMEDIES[dataset]}.")
         while not cursor.at_end:
@@ -95,6 +101,8 @@ class _LegacyReader:
             if dataset == "POLYDATA" and words[0].upper() in self.data:
                 break
             self._read_section(words)
+        if self.is_structured:
+            self._add_structured_cells()
         for name in required:
             if name not in self.sections:
                 raise cursor.error(f"has no section {name}")
@@ -127,16 +135,52 @@ class _LegacyReader:
                 self.sections.pop(name, None)
         elif key == "TRIANGLE_STRIPS":
             raise cursor.error("holds triangle strips: expected polygons", "Convert them to triangles.")
+        elif key == "DIMENSIONS" or key in _AXES or key in ("ORIGIN", "SPACING", "ASPECT_RATIO"):
+            self._read_structure(key, heading)
         elif key == "CELL_TYPES":
             self.sections[key] = read_array(cursor, key, count(heading[1], "the number of cells"), 1, "int")[:, 0]
         else:
             return False
         return True
 
+    def _read_structure(self, key: str, heading: list[str]) -> None:
+        """Read a line that tells the nodes of a structured grid; the coordinates of a rectilinear one follow it."""
+        if key in _AXES:
+            count = self.cursor.parse_count(heading[1], "the number of coordinates")
+            self.sections[key] = read_array(self.cursor, key, count, 1, heading[2])[:, 0]
+            return
+        try:
+            self.sections[key] = np.array([float(word) for word in heading[1:4]])
+        except ValueError:
+            raise self.cursor.error(f"{key} before {self.cursor.location} holds other words than numbers") from None
+        if len(self.sections[key]) != 3 or not np.isfinite(self.sections[key]).all():
+            raise self.cursor.error(f"{key} before {self.cursor.location} holds no three numbers")
+
+    def _add_structured_cells(self) -> None:
+        """Add the cells of a structured grid, and its points where the file does not list them."""
+        if "CELL_TYPES" in self.sections:
+            return
+        counts = self.sections.get("DIMENSIONS", np.zeros(3)).astype(np.int64).tolist()
+        if min(counts) < 2:
+            raise self.cursor.error(f"has the DIMENSIONS {counts}: expected two nodes or more along x, y and z")
+        budget = MemoryBudget(self.cursor.path, len(self.cursor.data))
+        budget.charge(88 * counts[0] * counts[1] * counts[2], "its nodes and cells")
+        if "POINTS" not in self.sections:
+            step = self.sections.get("SPACING", self.sections.get("ASPECT_RATIO", np.ones(3)))
+            origin = self.sections.get("ORIGIN", np.zeros(3))
+            even = [origin[k] + step[k] * np.arange(counts[k]) for k in range(3)]
+            self.sections["POINTS"] = grid_points([self.sections.get(key, even[k]) for k, key in enumerate(_AXES)])
+        if len(self.sections["POINTS"]) != np.prod(counts):
+            raise self.cursor.error(f"has {len(self.sections['POINTS'])} points: expected {np.prod(counts)}")
+        types, start, nodes = structured_cells(counts)
+        self.sections |= {"CELL_TYPES": types, "OFFSETS": start, "CELLS": nodes}
+
     def _read_attributes(self, key: str, heading: list[str]) -> bool:
         """Read a section of point, cell or field data; return False for another section."""
         cursor, count = self.cursor, self.cursor.parse_count
         if key in self.data:
+            if self.is_structured:
+                self._add_structured_cells()
             self.data_section, self.rows = key, count(heading[1], "the number of rows")
             expected = len(self.sections.get("POINTS" if key == "POINT_DATA" else "CELL_TYPES", ()))
             if expected != self.rows:

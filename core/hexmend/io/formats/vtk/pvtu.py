@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
@@ -25,7 +26,7 @@ def read(path: Path) -> Mesh:
     names = piece_names(path)
     if len(set(names)) < len(names):
         raise FileError(path, "lists a piece twice", "Write it again with the program that made it.")
-    grids = [grid for name in names for grid in _read_piece(path, name)]
+    grids = [grid for name in names for grid in read_piece(path, name)]
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
     return to_mesh(path, replace(merge_grids(grids, in_files=True), field_data=fields))
 
@@ -49,12 +50,12 @@ def included_files(path: Path) -> set[Path]:
         return set()
 
 
-def _read_piece(path: Path, name: str) -> list[Grid]:
-    """Read the grids of a piece."""
+def read_piece(path: Path, name: str, read: Callable[[Path], list[Grid]] = read_grids) -> list[Grid]:
+    """Read the grids of a piece that a file names."""
     piece = _piece_path(path, name)
     try:
         check_readable(piece, "a VTU file")
-        return read_grids(piece)
+        return read(piece)
     except FileError as error:
         raise FileError(path, f"its piece {printable(name[:80])}: {error.problem}", error.remedy) from None
 

@@ -97,7 +97,7 @@ def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) 
         document.budget.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
         nodes = _read_integers(document, arrays["connectivity"], int(start[-1]))
     sections = ((piece.first("PointData"), points), (piece.first("CellData"), cells))
-    data = [_read_data(document, section, rows, skipped) for section, rows in sections]
+    data = [read_data(document, section, rows, skipped) for section, rows in sections]
     return Grid(points_flat.reshape(-1, 3).astype(np.float64, copy=False), types, start, nodes, *data)
 
 
@@ -112,7 +112,8 @@ def _read_integers(document: Document, array: XMLElement, count: int) -> np.ndar
     return values if values.dtype in (np.int32, np.int64, np.uint8) else values.astype(np.int64)
 
 
-def _read_data(document: Document, section: XMLElement, rows: int, skipped: dict[str, None]) -> dict[str, np.ndarray]:
+def read_data(document: Document, section: XMLElement, rows: int, skipped: dict[str, None]) -> dict[str, np.ndarray]:
+    """Read arrays of point or cell data of so many rows; names of arrays of strings are added to `skipped`."""
     data: dict[str, np.ndarray] = {}
     for array in section.arrays():
         name, width = array.get("Name"), _width(document, array)

@@ -78,8 +78,8 @@ class Document:
     Parameters
     ----------
     path : Path
-    kind : str
-        Expected type, such as "UnstructuredGrid".
+    *kinds : str
+        Expected types, such as "UnstructuredGrid".
 
     Raises
     ------
@@ -87,7 +87,7 @@ class Document:
         Where the file is not XML, is of another type, or declares a document type or entities, as no VTK file does.
     """
 
-    def __init__(self, path: Path, kind: str):
+    def __init__(self, path: Path, *kinds: str):
         self.path = path
         self.file: BinaryIO = open(path, "rb")  # noqa: SIM115  (closed by __exit__)
         try:
@@ -96,7 +96,7 @@ class Document:
             self.size = self.file.seek(0, io.SEEK_END)
             self.budget = MemoryBudget(path, self.size)
             self._appended: int | None = None
-            self.root = self._parse(kind)
+            self.root = self._parse(kinds)
         except BaseException:
             self.file.close()
             raise
@@ -156,7 +156,7 @@ class Document:
         encoding = self.root.first("AppendedData").get("encoding", "base64")
         return self._appended + mark + 1, encoding
 
-    def _parse(self, kind: str) -> XMLElement:
+    def _parse(self, kinds: tuple[str, ...]) -> XMLElement:
         """Parse the elements up to the appended data."""
         parser = expat.ParserCreate()
         top, count = XMLElement("", {}), 0
@@ -168,7 +168,7 @@ class Document:
             if count > _MAX_ELEMENTS:
                 raise self.error(f"has more than {_MAX_ELEMENTS:,} elements")
             if stack[-1] is top:
-                self._check(name, attributes, kind)
+                self._check(name, attributes, kinds)
             else:
                 stack[-1].spans[-1] = (stack[-1].spans[-1][0], at)
             stack.append(XMLElement(name, attributes, spans=[(at, at)]))
@@ -200,13 +200,13 @@ class Document:
             raise self.error(f"its XML is broken at line {line}, column {column}") from None
         return top.children[0]
 
-    def _check(self, name: str, attributes: dict[str, str], kind: str) -> None:
+    def _check(self, name: str, attributes: dict[str, str], kinds: tuple[str, ...]) -> None:
         if name != "VTKFile":
             raise self.error("does not begin with <VTKFile ...>", check_suffix("a VTK XML file"))
         found = attributes.get("type", "")
-        if found != kind:
-            problem = f"is a VTKFile of the type {printable(found[:40])!r}: expected {kind}"
-            raise self.error(problem, f"Convert it to {kind}.")
+        if found not in kinds:
+            problem = f"is a VTKFile of the type {printable(found[:40])!r}: expected {' or '.join(kinds)}"
+            raise self.error(problem, f"Convert it to {kinds[0]}.")
 
 
 def array_title(array: XMLElement) -> str:

@@ -7,7 +7,10 @@ import pytest
 
 from hexmend import FileError, io, smooth, summarise
 from hexmend.cli.main import main
-from tests.core.grids import grid, scrambled
+from hexmend.interop import to_meshio
+from hexmend.io import Original, write_as_given
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from tests.core.grids import displaced, grid, scrambled
 from tests.core.io.kept import read_back, read_content
 
 FILES = Path(__file__).parents[2] / "files"
@@ -130,6 +133,40 @@ def test_the_first_version_of_the_format_is_read(tmp_path):
         assert mesh.hex_sets["physical 100"].tolist() == [0]
         assert {one.kind: dict(one.sets) for one in mesh.cells} == {"quad": {"physical 1": [0]}, "tetra": {}}
         assert summarise(mesh).inverted == 0
+
+
+@pytest.mark.parametrize("binary", [False, True])
+def test_version_4_0_is_read_and_its_coordinates_replaced(binary, tmp_path):
+    meshio, path = pytest.importorskip("meshio"), tmp_path / "a.msh"
+    meshio.gmsh.write(path, to_meshio(CUBE), "4.0", binary)
+    mesh = io.read(path)
+    np.testing.assert_array_equal(mesh.points, CUBE.points)
+    np.testing.assert_array_equal(mesh.hexes, CUBE.hexes)
+    moved = displaced(mesh, [21], [0.25, 0, 0])
+    assert write_as_given(tmp_path / "b.msh", moved, Original(path, mesh)).replaced
+    np.testing.assert_array_equal(io.read(tmp_path / "b.msh").points, moved.points)
+
+
+def test_parametric_nodes_are_read_and_their_coordinates_replaced(tmp_path):
+    ends = ["0 1", "1 1 0.5", "2 1 0.25 0.75", "3 1", *["3 1"] * 4]
+    nodes = "".join(
+        f"{k} {x} {y} {z} {end}\n" for k, ((x, y, z), end) in enumerate(zip(UNIT_CUBE, ends, strict=True), 1)
+    )
+    text = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n8\n{nodes}$EndParametricNodes\n"
+    text += "$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n"
+    mesh = read_content(tmp_path / "a.msh", text)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    assert write_as_given(
+        tmp_path / "b.msh", displaced(mesh, [2], [0, 0, 0.5]), Original(tmp_path / "a.msh", mesh)
+    ).replaced
+    assert (tmp_path / "b.msh").read_text() == text.replace("3 1.0 1.0 0.0 2", "3 1.0 1.0 0.5 2")
+
+
+def test_elements_of_a_higher_order_are_refused_by_their_order(tmp_path):
+    nodes = "".join(f"{k} {k} 0 0\n" for k in range(1, 65))
+    text = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n64\n{nodes}$EndNodes\n$Elements\n1\n1 92 0 "
+    with pytest.raises(FileError, match=r"1 cell of type HEXA of order 3\. .*gmsh MODEL -3 -order 2"):
+        read_content(tmp_path / "a.msh", f"{text}{' '.join(map(str, range(1, 65)))}\n$EndElements\n")
 
 
 # Periodic surfaces of Gmsh's files.

@@ -110,7 +110,7 @@ WRONG_TEXTS = [
     (text_of(kind='Int64" format="binary', hexes="Q!!!!!!!"), "is not valid base64"),
     (text_of().replace('Name="types"', 'Name="type"'), "its Cells hold no array 'types'"),
     (text_of().replace('"3"', '"2"'), "its Points have 2 coordinates each: expected 3"),
-    (text_of().replace("UnstructuredGrid", "ImageData"), "is a VTKFile of the type 'ImageData': expected UnstructuredGrid"),
+    (text_of().replace("UnstructuredGrid", "PolyData"), "is a VTKFile of the type 'PolyData': expected UnstructuredGrid"),
     (text_of().replace("Piece", "Part"), "holds no Piece"),
     (text_of()[:-20], "its XML is broken at line 1, column"),
     ('<!DOCTYPE a [<!ENTITY b "bbbbbbbb">]>' + text_of(), "declares a document type"),
