@@ -11,12 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.cards import Cards
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
-from hexmend.io.formats.nastran.bulk import BulkData, Cards
+from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
 from hexmend.io.formats.nastran.files import BulkFiles
 from hexmend.io.formats.nastran.systems import CoordinateSystems
