@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.interop.conversion import convert_to_mesh, import_library, with_side_marks
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, from_mesh, merge_blocks, to_mesh
+from hexmend.io.base.content import from_mesh, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.remedies import unread_note
-from hexmend.mesh.cells import CELL_KINDS
+from hexmend.io.base.meshio_content import content_of, meshio_fields
 from hexmend.mesh.mesh import Mesh
-from hexmend.terminal_text import count_phrase
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import meshio
-
-#: Kinds of cells by meshio's names.
-KINDS = {"hexahedron": "hex", "hexahedron20": "hex20", "hexahedron27": "hex27", **{kind: kind for kind in CELL_KINDS}}
-NAMES = {kind: name for name, kind in KINDS.items()}
-
-#: Permutation of nodes between Hexmend's order, which is VTK's, and meshio's, where they differ; its own inverse.
-_ORDER = {"wedge": [0, 2, 1, 3, 5, 4]}
-
-#: Entries of cell sets from meshio's reader of Gmsh that hold no cells.
-_NOT_SETS = {"gmsh:bounding_entities"}
-
-#: Cell data of Gmsh that hold the number of a cell's physical group; its name and dimension are field data.
-_PHYSICAL = "gmsh:physical"
 
 
 def to_meshio(mesh: Mesh) -> meshio.Mesh:
@@ -64,19 +45,8 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
     [<meshio CellBlock, type: hexahedron, num cells: 27, tags: []>]
     """
     meshio = import_library("meshio")
-    content = from_mesh(with_side_marks(mesh))
-    lengths = [len(block) for block in content.blocks]
-    data = concatenate_data([block.data for block in content.blocks], lengths)
-    sets = dict.fromkeys(name for block in content.blocks for name in block.sets)
-    return meshio.Mesh(
-        np.array(content.points),
-        [(NAMES[block.kind], _reordered(block.kind, block.nodes)) for block in content.blocks],
-        point_data={name: np.array(values) for name, values in with_marks(mesh).items()},
-        cell_data={name: np.split(values, np.cumsum(lengths)[:-1]) for name, values in data.items()},
-        field_data=dict(content.field_data),
-        point_sets={name: np.array(members) for name, members in content.node_sets.items()},
-        cell_sets={name: [np.array(block.sets.get(name, ()), np.int64) for block in content.blocks] for name in sets},
-    )
+    points, cells, fields = meshio_fields(replace(from_mesh(with_side_marks(mesh)), node_data=with_marks(mesh)))
+    return meshio.Mesh(points, cells, **fields)
 
 
 def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
@@ -107,66 +77,4 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
     if not isinstance(meshio_mesh, meshio.Mesh):
         given = f"an object of type {type(meshio_mesh).__name__}"
         raise MeshError(f"from_meshio() was given {given}; expected a meshio.Mesh")
-    return convert_to_mesh("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
-
-
-def _content(mesh: meshio.Mesh) -> Content:
-    """Make the content of a meshio mesh: one block of cells for each kind."""
-    sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NOT_SETS}
-    blocks: dict[str, list[Block]] = {}
-    unread: Counter[str] = Counter()
-    for index, cells in enumerate(mesh.cells):
-        kind = KINDS.get(cells.type)
-        if kind is None:
-            unread[f"type {cells.type}"] += len(cells)
-            continue
-        data = {name: np.array(parts[index]) for name, parts in mesh.cell_data.items()}
-        members = {name: _members(parts, index) for name, parts in sets.items()}
-        blocks.setdefault(kind, []).append(Block(kind, _reordered(kind, cells.data), data, members))
-    merged = [merge_blocks(group) for group in blocks.values()]
-    merged.sort(key=lambda block: block.kind not in HEX_KINDS)
-    notes = []
-    if unread:
-        kinds = ", ".join(sorted(unread))
-        cells = count_phrase(sum(unread.values()), f"cell of another kind ({kinds})", f"cells of other kinds ({kinds})")
-        notes.append(unread_note(cells))
-    points = np.array(mesh.points)
-    node_data = {name: np.array(values) for name, values in mesh.point_data.items()}
-    node_sets = {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()}
-    content = tuple(_without_empty_sets(merged))
-    return Content(points, content, node_data, node_sets, {}, None, dict(mesh.field_data), tuple(notes), unread)
-
-
-def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:
-    """Convert Gmsh's physical groups (field data with number and dimension, for files of version 2) to cell sets."""
-    groups = {}
-    for name, entry in mesh.field_data.items():
-        numbers = np.asarray(entry)
-        if _PHYSICAL in mesh.cell_data and numbers.shape == (2,) and numbers.dtype.kind in "iu":
-            groups[name] = [
-                np.flatnonzero((np.asarray(tags) == numbers[0]) & (cells.dim == numbers[1]))
-                for cells, tags in zip(mesh.cells, mesh.cell_data[_PHYSICAL], strict=True)
-            ]
-    return groups
-
-
-def _members(parts: Sequence[object], index: int) -> np.ndarray:
-    """Members of a cell set in one block; meshio's readers may give None, or too few parts, for empty ones."""
-    part = parts[index] if index < len(parts) else None
-    return np.array(() if part is None else part, np.int64)
-
-
-def _without_empty_sets(blocks: Sequence[Block]) -> list[Block]:
-    """Drop empty sets of blocks where another block has members; sets without any member stay in the first block."""
-    filled = {name for block in blocks for name, members in block.sets.items() if len(members)}
-    kept = []
-    for block in blocks:
-        empty = set() if block is not blocks[0] else block.sets.keys() - filled
-        sets = {name: members for name, members in block.sets.items() if len(members) or name in empty}
-        kept.append(replace(block, sets=sets))
-    return kept
-
-
-def _reordered(kind: str, nodes: np.ndarray) -> np.ndarray:
-    nodes = np.array(nodes, np.int64)
-    return nodes[:, _ORDER[kind]] if kind in _ORDER else nodes
+    return convert_to_mesh("meshio mesh", lambda title: to_mesh(title, content_of(meshio_mesh)), as_is)

@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.foreign_files import check_not_foreign
 from hexmend.registry import load_entry_points
 
 #: Entry-point group of the formats of other distributions; its entries name a `Format`.
@@ -70,6 +71,7 @@ def format_of(path: Path) -> Format:
     with open(path, "rb") as file:
         head = file.read(_HEAD).removeprefix(BOM_UTF8)
     compression = next((name for name, magic in _COMPRESSIONS.items() if head.startswith(magic)), "")
+    check_not_foreign(path, head)
     for format in named:
         if format.matches(head) if format.matches is not None else not compression:
             return format

@@ -74,9 +74,10 @@ def _read_grid(document: Document, top: XMLElement, piece: XMLElement) -> Grid:
         if not arrays:
             raise document.error("its Points hold no array")
         points = read_values(document, arrays[0], 3 * n_nodes).reshape(-1, 3).astype(np.float64, copy=False)
-    data = [read_data(document, piece.first(key), n, {}) for key, n in (("PointData", n_nodes), ("CellData", n_cells))]
+    of_nodes = read_data(document, piece.first("PointData"), n_nodes, {})
+    of_cells = read_data(document, piece.first("CellData"), n_cells, {})
     document.budget.charge(64 * n_cells, "its cells")
-    return Grid(points, *structured_cells(counts), *data)
+    return Grid(points, *structured_cells(counts), of_nodes, of_cells)
 
 
 def _numbers(document: Document, element: XMLElement, key: str, count: int, default: float | None = None) -> np.ndarray:

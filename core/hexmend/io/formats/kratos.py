@@ -1,0 +1,105 @@
+"""Kratos's model parts (.mdpa): nodes, elements and conditions, whose properties are sets, and submodel parts."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.base import numbering
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, from_mesh, merge_blocks, node_count, to_mesh
+from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.decimals import format_rows, parse_numbers
+from hexmend.io.base.format import Capability, register
+from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
+from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
+from hexmend.mesh.mesh import Mesh
+
+_BLOCK = re.compile(rb"^[ \t]*Begin[ \t]+(\w+)[ \t]*([^\n]*)\n(.*?)^[ \t]*End[ \t]+\1\b", re.MULTILINE | re.DOTALL)
+_COMMENT = re.compile(rb"//[^\n]*")
+_WIDTH = re.compile(rb"[23]D(\d+)")
+#: Kinds of elements and conditions by their number of nodes.
+_ELEMENTS = {8: "hex", 4: "tetra", 6: "wedge", 5: "pyramid"}
+_CONDITIONS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
+#: Kinds that are written.
+_KINDS = {"hex": 8, "tetra": 4, "wedge": 6}
+
+
+def read(path: Path) -> Mesh:
+    """Read nodes, elements and conditions; those of properties N become the set "properties N".
+
+    Raises
+    ------
+    FileError
+        For a block that is malformed, or a node that does not exist.
+    MeshError
+        From `Mesh`.
+    """
+    text = _COMMENT.sub(b"", read_text_bytes(path).replace(b"\r\n", b"\n"))
+    found = [(one[1].decode("latin-1"), one[2], one[3]) for one in _BLOCK.finditer(text)]
+    nodes = [_rows(path, name, body, 4) for name, _, body in found if name == "Nodes"]
+    if not nodes:
+        raise FileError(path, "has no block of Nodes with its End", check_suffix("a model part of Kratos"))
+    if text.count(b"Begin ") != text.count(b"End "):
+        raise FileError(path, "has a block without its End", DAMAGED)
+    table = np.concatenate(nodes)
+    ids, blocks, unread = table[:, 0].astype(np.int64), [], Counter[str]()
+    for name, title, body in found:
+        width = _WIDTH.search(title)
+        table_of_kinds = {"Elements": _ELEMENTS, "Conditions": _CONDITIONS}.get(name, {})
+        kind = table_of_kinds.get(int(width[1])) if width else None
+        if kind is None:
+            unread[f"{name} {title.decode('latin-1').strip()}"] += 1
+            continue
+        rows = _rows(path, name, body, 2 + node_count(kind)).astype(np.int64)
+        groups = {f"properties {one}": np.flatnonzero(rows[:, 1] == one) for one in np.unique(rows[:, 1]).tolist()}
+        groups = groups if len(groups) > 1 or "properties 0" not in groups else {}
+        blocks.append(Block(kind, numbering.find_ids(path, ids, rows[:, 2:], "node"), {ID: rows[:, 0].copy()}, groups))
+    merged = [
+        merge_blocks([one for one in blocks if one.kind == kind]) for kind in dict.fromkeys(b.kind for b in blocks)
+    ]
+    merged.sort(key=lambda block: block.kind not in HEX_KINDS)
+    del unread["Nodes "]
+    notes = (unread_note(f"blocks of other kinds ({some_names(unread)})"),) if unread else ()
+    return to_mesh(
+        path, Content(np.ascontiguousarray(table[:, 1:]), tuple(merged), {ID: ids}, notes=notes, unread=unread)
+    )
+
+
+def _rows(path: Path, name: str, body: bytes, width: int) -> np.ndarray:
+    """Rows of the numbers of a block, (k, width) float64."""
+    values = parse_numbers(body, np.float64)
+    if values is None or values.size % width or not np.isfinite(values).all() or (np.abs(values) > 2.0**62).any():
+        raise FileError(path, f"a block of {quoted(name)} holds no rows of {width} numbers", DAMAGED)
+    return values.reshape(-1, width)
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write nodes and elements."""
+    content = reduce_order(from_mesh(mesh), _KINDS)
+    node_ids = numbering.node_ids(dict(content.node_data), len(content.points))
+    with open(path, "wb") as file:
+        file.write(b"Begin ModelPartData\nEnd ModelPartData\n\nBegin Properties 0\nEnd Properties\n\nBegin Nodes\n")
+        for number, line in zip(node_ids.tolist(), format_rows(content.points).splitlines(True), strict=True):
+            file.write(b"%d %s" % (number, line))
+        file.write(b"End Nodes\n")
+        for block, ids in zip(content.blocks, numbering.element_ids(content.blocks), strict=True):
+            file.write(b"\nBegin Elements Element3D%dN\n" % _KINDS[block.kind])
+            file.write(format_rows(np.column_stack([ids, np.zeros_like(ids), node_ids[block.nodes]])))
+            file.write(b"End Elements\n")
+
+
+register(
+    name="kratos",
+    title="Kratos",
+    suffixes=(".mdpa",),
+    encodings=("ascii",),
+    read=read,
+    write=write,
+    capabilities=frozenset({Capability.IDS}),
+    limitations=lambda mesh: numbering.unsupported_ids(mesh) + lost_mid_nodes(mesh, _KINDS),
+    matches=lambda head: re.match(rb"\s*(?://[^\n]*\n\s*)*Begin \w", head) is not None,
+)

@@ -1,0 +1,87 @@
+"""Formats that meshlane reads and writes: meshes of meshio are read, and what is written is read by meshio."""
+
+import numpy as np
+import pytest
+
+from hexmend import FileError, io
+from hexmend.interop import from_meshio, to_meshio
+from tests.core.grids import grid, scrambled
+from tests.core.io.kept import read_content
+
+meshio = pytest.importorskip("meshio")
+
+MESH = scrambled(grid(3), 0.2).replace(node_data={"t": np.arange(64.0)}, hex_data={"k": np.arange(27)})
+#: Suffixes by meshio's names.
+WRITTEN = {"xdmf": ".xdmf", "avsucd": ".avs", "tecplot": ".tec"}
+READ = WRITTEN | {"mdpa": ".mdpa", "netgen": ".vol"}
+
+
+@pytest.mark.parametrize("name", READ)
+def test_hexes_that_meshio_writes_are_read(name, tmp_path):
+    options = {"data_format": "XML"} if name == "xdmf" else {}
+    given = to_meshio(MESH.replace(node_data={}, hex_data={}))
+    meshio.write(tmp_path / f"a{READ[name]}", given, file_format=name, **options)
+    mesh = io.read(tmp_path / f"a{READ[name]}")
+    np.testing.assert_allclose(mesh.points, MESH.points, atol=1e-14)
+    assert {frozenset(row) for row in mesh.hexes.tolist()} == {frozenset(row) for row in MESH.hexes.tolist()}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_hexes_that_are_written_are_read_by_meshio(name, tmp_path):
+    io.write(tmp_path / f"a{WRITTEN[name]}", MESH)
+    back = from_meshio(meshio.read(tmp_path / f"a{WRITTEN[name]}", file_format=name))
+    np.testing.assert_array_equal(back.points, MESH.points)
+    assert {frozenset(row) for row in back.hexes.tolist()} == {frozenset(row) for row in MESH.hexes.tolist()}
+
+
+def test_the_content_tells_a_format_from_others_of_its_suffix(tmp_path):
+    for own, other in ((".tec", ".dat"), (".avs", ".inp")):
+        io.write(tmp_path / f"a{own}", MESH)
+        assert read_content(tmp_path / f"b{other}", (tmp_path / f"a{own}").read_bytes()).n_hexes == 27
+
+
+def test_nodes_of_kratos_have_numbers_of_their_own(tmp_path):
+    nodes = "".join(f" {30 - k} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k in range(8))
+    text = f"Begin Nodes\n{nodes}End Nodes\nBegin Elements SmallDisplacementElement3D8N\n 1 0 30 29 27 28 26 25 23 24\nEnd Elements\n"
+    mesh = read_content(tmp_path / "a.mdpa", text)
+    assert mesh.hexes.tolist() == [[0, 1, 3, 2, 4, 5, 7, 6]]
+    for old, words in (("End Elements", "a block without its End"), (" 30 29", " 99 29")):
+        with pytest.raises(FileError, match=words if "End" in words else "node 99 is used"):
+            read_content(tmp_path / "b.mdpa", text.replace(old, words if "End" not in words else ""))
+
+
+CDB = """/PREP7
+ET,1,185
+NBLOCK,6,SOLID,8,8
+(3i9,6e21.13e3)
+{nodes}N,R5.3,LOC,-1,
+EBLOCK,19,SOLID,1,1
+(19i9)
+{element}
+       -1
+FINISH
+"""
+
+
+def test_blocks_of_ansys_are_read(tmp_path):
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    nodes = "".join(f"{k:9d}{0:9d}{0:9d}{x:21.13E}{y:21.13E}{z:21.13E}\n" for k, (x, y, z) in enumerate(corners, 11))
+    element = "".join(f"{one:9d}" for one in [1, 1, 1, 1, 0, 0, 0, 0, 8, 0, 1, *range(11, 19)])
+    mesh = read_content(tmp_path / "a.cdb", CDB.format(nodes=nodes, element=element))
+    assert mesh.hexes.tolist() == [list(range(8))]
+    assert mesh.points.tolist() == [list(map(float, corner)) for corner in corners]
+
+
+@pytest.mark.parametrize(("name", "head", "words"), [
+    ("a.e", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "a pointer of Git LFS, .* git lfs pull"),
+    ("a.mesh", "MFEM mesh v1.0\n\ndimension\n3\n", "a mesh of MFEM. .*mesh-explorer"),
+    ("a.msh", '(0 "GAMBIT to Fluent File")\n(2 3)\n', "a mesh of Fluent. .*fluent3DMeshToFoam"),
+    ("a.mphtxt", "# Created by COMSOL Multiphysics\n", "a mesh of COMSOL. .*NASTRAN"),
+    ("a.unv", "    -1\n  2411\n", "a universal file .*gmsh MESH.unv -save -o MESH.msh"),
+    ("a.rad", "#RADIOSS STARTER\n", "a deck of Radioss. .*LS-DYNA"),
+    ("a.feb", '<?xml version="1.0"?>\n<febio_spec version="4.0">', "a deck of FEBio. .*FEBio Studio"),
+])  # fmt: skip
+def test_files_of_other_programs_are_refused_with_a_way_out(name, head, words, tmp_path):
+    with pytest.raises(FileError, match=f"is {words}") as error:
+        read_content(tmp_path / name, head)
+    assert "correct its suffix" not in str(error.value)
