@@ -9,8 +9,9 @@ import numpy as np
 
 from hexmend.io.coordinates.deck_files import DeckFile, write_files
 from hexmend.io.coordinates.edits import Edits
+from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.coordinates.text_coordinates import shortened
-from hexmend.io.formats.lsdyna.deck import Keyword, keywords, read_deck
+from hexmend.io.formats.lsdyna.deck import Keyword, join, keywords
 from hexmend.io.formats.lsdyna.reader import NODE_COLUMNS
 from hexmend.io.storage.atomic import AtomicFiles
 
@@ -19,9 +20,9 @@ _DIGITS = "Fields of 16 columns hold 9 to 14 digits of the new coordinates."
 
 def locate(path: Path) -> DynaCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    root = read_deck(path)
-    nodes = [keyword for keyword in keywords(root) if keyword.name == "NODE"]
-    return DynaCoordinates(root, nodes, np.concatenate([one.cards(NODE_COLUMNS).reals(1, 4) for one in nodes]))
+    files = join(path)
+    nodes = [keyword for keyword in keywords(files) if keyword.name == "NODE"]
+    return DynaCoordinates(files, nodes, np.concatenate([one.cards(NODE_COLUMNS).reals(1, 4) for one in nodes]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +31,13 @@ class DynaCoordinates:
 
     Parameters
     ----------
-    root : DeckFile
+    files : JoinedFiles
     nodes : list of Keyword
         Those named *NODE.
     points : (n, 3) float64
     """
 
-    root: DeckFile
+    files: JoinedFiles
     nodes: list[Keyword]
     points: np.ndarray
 
@@ -53,7 +54,8 @@ class DynaCoordinates:
                 width = 0 if free[node] else (20 if keyword.is_long else 16)
                 text = repr(value) if len(repr(value)) < (width or 21) else shortened(value, (width or 21) - 1)
                 exact = exact and float(text) == value
-                rows.setdefault(keyword.file, []).append((low, high, text.rjust(width).encode()))
+                file, at = self.files.locate(low)
+                rows.setdefault(file, []).append((at, at + high - low, text.rjust(width).encode()))
         edits = {file: Edits.of(own) for file, own in rows.items()}
-        notes = write_files(self.root, edits, target, files, read_deck)
+        notes = write_files(self.files.root, edits, target, files, lambda path: join(path).root)
         return notes if exact else (*notes, _DIGITS)

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, node_count
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids, lookup
 from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
-from hexmend.io.coordinates.deck_files import DeckFile
-from hexmend.io.formats.lsdyna.deck import Keyword, keywords
+from hexmend.io.formats.lsdyna.deck import Keyword, join, keywords
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
@@ -52,7 +52,7 @@ def read(path: Path) -> Mesh:
         From `Mesh`.
     """
     model = _Model()
-    for keyword in keywords(DeckFile(path, read_text_bytes(path))):
+    for keyword in keywords(join(path)):
         model.add(keyword)
     return mesh_of(path, model.content(path))
 
@@ -106,7 +106,7 @@ class _Model:
             nodes = keyword.rows(slice(1, None, step)).cards(ELEMENT_COLUMNS).integers(0, width)
         wrong = np.flatnonzero((nodes[:, :8] == 0).any(axis=1))
         if base in _SOLIDS and wrong.size:
-            place = keyword.file.place(int(keyword.begin[wrong[0] * step]))
+            place = keyword.files.place(int(keyword.begin[wrong[0] * step]))
             problem = f"has {np.count_nonzero(nodes[wrong[0], :8])} nodes in {place}: expected 8"
             raise keyword.error(problem, DAMAGED)
         kinds = _solids(nodes) if base in _SOLIDS else _lower(nodes[:, : 4 if base == "ELEMENT_SHELL" else 2], base)
@@ -143,8 +143,7 @@ class _Model:
     def content(self, path: Path) -> Content:
         """Return the content that all keywords make together."""
         if not self.nodes:
-            remedy = check_suffix("a keyword file of LS-DYNA")
-            raise DeckFile(path, b"").error("has no *NODE", remedy)
+            raise FileError(path, "has no *NODE", check_suffix("a keyword file of LS-DYNA"))
         node_ids, points = map(np.concatenate, zip(*self.nodes, strict=True))
         blocks: list[Block] = []
         n_parts = len({one for parts in self.elements.values() for rows in parts for one in rows[:, 1].tolist()})

@@ -15,7 +15,6 @@ from numpy.lib.stride_tricks import sliding_window_view
 from hexmend.errors import FileError
 from hexmend.io.base.cards import LONGEST, Cards
 from hexmend.io.base.cursor import quoted
-from hexmend.io.coordinates.deck_files import DeckFile
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
@@ -36,8 +35,8 @@ class BulkData:
         The file; errors name it.
     data : bytes
         Its content, with lines that end in "\\n".
-    locate : callable, optional
-        locate(offset) returns the file of an offset, and the offset in that file.
+    place : callable, optional
+        place(offset) names the line of an offset.
 
     Attributes
     ----------
@@ -45,8 +44,8 @@ class BulkData:
         Offsets of the first byte of each line, and of its line end.
     """
 
-    def __init__(self, path: Path, data: bytes, locate: Callable[[int], tuple[DeckFile, int]] | None = None):
-        self._path, self._data, self._locate = path, data, locate
+    def __init__(self, path: Path, data: bytes, place: Callable[[int], str] | None = None):
+        self._path, self._data, self._place = path, data, place
         self._padded = np.frombuffer(data + b" " * _COLUMNS, np.uint8)
         ends = np.flatnonzero(self._padded[: len(data)] == ord("\n"))
         self.end = ends if data.endswith(b"\n") else np.append(ends, len(data))
@@ -78,10 +77,7 @@ class BulkData:
 
     def place(self, line: int) -> str:
         """Name a line, from 1, such as "line 12", or "line 3 of nodes.bdf" in an included file."""
-        if self._locate is None:
-            return f"line {line}"
-        file, at = self._locate(int(self.start[line - 1]))
-        return file.place(at)
+        return self._place(int(self.start[line - 1])) if self._place else f"line {line}"
 
     def _cut(self, begin: int, end: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Cut lines into cards: names, first lines from 1, fields of all cards, and their bounds (k + 1,)."""

@@ -15,9 +15,10 @@ import numpy as np
 
 from hexmend.io.coordinates.deck_files import DeckFile, write_files
 from hexmend.io.coordinates.edits import Edits
+from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.cards import is_exact, real_field
-from hexmend.io.formats.nastran.files import BulkFiles
+from hexmend.io.formats.nastran.files import join
 from hexmend.io.formats.nastran.reader import BulkModel, GridPoints
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.terminal_text import count_phrase
@@ -126,8 +127,8 @@ _DIGITS = "Fields of 16 columns hold 12 to 14 digits of the new coordinates."
 
 def locate(path: Path) -> NastranCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    files = BulkFiles(path)
-    bulk, model = BulkData(path, files.data, files.locate), BulkModel(path)
+    files = join(path)
+    bulk, model = BulkData(path, files.data, files.place), BulkModel(path)
     for cards in bulk.cards():
         model.add_position(cards)
     grid = model.grid_points()
@@ -140,14 +141,14 @@ class NastranCoordinates:
 
     Parameters
     ----------
-    files : BulkFiles
+    files : JoinedFiles
     bulk : BulkData
         Their text.
     grid : GridPoints
     points : (n, 3) float64
     """
 
-    files: BulkFiles
+    files: JoinedFiles
     bulk: BulkData
     grid: GridPoints
     points: np.ndarray
@@ -175,7 +176,7 @@ class NastranCoordinates:
             for (file, begin, end, _), text in zip(lines, after, strict=True):
                 edits.setdefault(file, []).append((begin, end, text.encode("latin-1")))
         tables = {file: Edits.of(rows) for file, rows in edits.items()}
-        own = write_files(self.files.root, tables, target, files, lambda path: BulkFiles(path).root)
+        own = write_files(self.files.root, tables, target, files, lambda path: join(path).root)
         widened = count_phrase(n_widened, "GRID card has", "GRID cards have")
         notes = [f"{widened} become GRID* to hold all digits of the new coordinates."] if n_widened else []
         return (*own, *notes, *([] if exact else [_DIGITS]))

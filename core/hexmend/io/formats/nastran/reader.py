@@ -19,7 +19,7 @@ from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
 from hexmend.io.formats.nastran.bulk import BulkData
 from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
-from hexmend.io.formats.nastran.files import BulkFiles
+from hexmend.io.formats.nastran.files import join
 from hexmend.io.formats.nastran.systems import CoordinateSystems
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
@@ -46,9 +46,9 @@ def read(path: Path) -> Mesh:
     MeshError
         From `Mesh`.
     """
-    files = BulkFiles(path)
+    files = join(path)
     model = BulkModel(path)
-    for cards in BulkData(path, files.data, files.locate).cards():
+    for cards in BulkData(path, files.data, files.place).cards():
         model.add(cards)
     return mesh_of(path, model.content())
 

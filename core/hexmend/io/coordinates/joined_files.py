@@ -1,0 +1,91 @@
+"""A deck and the files that it includes as one text."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from hexmend.io.base.cursor import read_text_bytes
+from hexmend.io.coordinates import deck_files
+from hexmend.io.coordinates.deck_files import DeckFile
+
+_NEWLINE = b"\n"
+
+
+class Inclusion(NamedTuple):
+    """A card that includes files: its byte range, its name, and the names of the files with their byte ranges."""
+
+    begin: int
+    end: int
+    card: str
+    names: list[tuple[str, int, int]]
+
+
+class JoinedFiles:
+    """The text of a deck, with those of the files that it includes in the places of the cards that name them.
+
+    Parameters
+    ----------
+    path : Path
+    inclusions : callable
+        inclusions(data) finds the cards in a file that include others, in order.
+    end : callable
+        end(data) returns the offset at which a file ends.
+
+    Attributes
+    ----------
+    root : DeckFile
+    data : bytes
+        With lines that end in "\\n".
+
+    Raises
+    ------
+    FileError
+        For an included file that cannot be read, or that includes itself.
+    """
+
+    def __init__(
+        self, path: Path, inclusions: Callable[[bytes], Iterable[Inclusion]], end: Callable[[bytes], int] = len
+    ):
+        self.root, self._inclusions, self._end = DeckFile(path, read_text_bytes(path)), inclusions, end
+        self._size, self._begins, self._pieces = 0, list[int](), list[tuple[DeckFile, int]]()
+        texts: list[bytes] = []
+        self._add(self.root, texts)
+        self.data = b"".join(texts)
+
+    def _add(self, file: DeckFile, texts: list[bytes]) -> None:
+        at, end = 0, self._end(file.data)
+        for found in self._inclusions(file.data[:end]):
+            self._add_piece(file, at, found.begin, texts)
+            for name in found.names:
+                line = file.data.count(_NEWLINE, 0, found.begin) + 1
+                self._add(file.include(*name, f"{found.card} in line {line}"), texts)
+            at = found.end
+        self._add_piece(file, at, end, texts)
+
+    def _add_piece(self, file: DeckFile, begin: int, end: int, texts: list[bytes]) -> None:
+        if texts and not texts[-1].endswith(_NEWLINE):
+            texts.append(_NEWLINE)
+            self._size += 1
+        self._begins.append(self._size)
+        self._pieces.append((file, begin))
+        texts.append(file.data[begin:end])
+        self._size += end - begin
+
+    def locate(self, at: int) -> tuple[DeckFile, int]:
+        """Return the file of an offset of `data`, and the offset in that file."""
+        k = bisect_right(self._begins, at) - 1
+        file, begin = self._pieces[k]
+        return file, begin + at - self._begins[k]
+
+    def place(self, at: int) -> str:
+        """Name the line of an offset, such as "line 12", or "line 3 of nodes.bdf" in an included file."""
+        file, own = self.locate(at)
+        return file.place(own)
+
+
+def included_files(path: Path, join: Callable[[Path], JoinedFiles]) -> set[Path]:
+    """Find the files that a deck includes; see `hexmend.io.coordinates.deck_files.included_files`."""
+    return deck_files.included_files(path, lambda one: join(one).root)
