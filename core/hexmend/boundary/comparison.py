@@ -72,7 +72,8 @@ class SurfaceChange:
         """Description of the change as a sentence."""
         change = self._distance
         if abs(self.volume_change) > ROUNDING:
-            change += f"; its volume changed by {100 * self.volume_change:+.2g} %"
+            percent = 100 * self.volume_change
+            change += f"; its volume changed by {percent:{'+.2g' if abs(percent) < 99 else '+,.0f'}} %"
         if self.features:
             edges = count_phrase(self.features, "sharp edge")
             change += f"; {self.features_kept:,} of {edges} {'is' if self.features_kept == 1 else 'are'} kept"

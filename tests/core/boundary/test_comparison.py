@@ -60,6 +60,7 @@ def test_nothing_has_changed_where_nothing_moved():
     assert smooth.sentence == "The boundary slid: 3 of its nodes moved; it has kept its shape."
     assert replace(smooth, reference="new.stl").sentence.endswith("moved; it is on new.stl.")
     assert replace(smooth, volume_change=-0.01).sentence.endswith("; its volume changed by -1 %.")
+    assert replace(smooth, volume_change=1.0).sentence.endswith("; its volume changed by +100 %.")
 
 
 @given(st.floats(0.01, 0.4))

@@ -71,7 +71,7 @@ def _sections(
             raise cursor.error(f"{quoted(key)} was found where a section should begin ({line})")
     if points is None:
         raise cursor.error("has no section Vertices")
-    if "Hexahedra" not in sections and not cursor.data[:].rstrip().endswith(b"End"):
+    if not sections.keys() & {"Hexahedra", "Tetrahedra"} and not cursor.data[:].rstrip().endswith(b"End"):
         raise cursor.error(f"ends at {cursor.location} without Hexahedra")
     return points, refs, sections, skipped, place
 
