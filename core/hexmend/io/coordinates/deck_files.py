@@ -8,7 +8,6 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
-from typing import Any, Self
 
 import numpy as np
 
@@ -32,14 +31,13 @@ class Reference:
     Parameters
     ----------
     parent : DeckFile
-        Or one that is derived from it.
     begin, end : int
         Byte range of the name in the parent, with quotes if it has them.
     name : str
         The name without quotes, with / between folders.
     """
 
-    parent: Any
+    parent: DeckFile
     begin: int
     end: int
     name: str
@@ -67,7 +65,7 @@ class DeckFile:
     def __init__(self, path: Path, given: bytes, reference: Reference | None = None):
         self.path, self.given, self.reference = path, given, reference
         self.data = given.replace(b"\r\n", b" \n").replace(b"\r", b"\n") if b"\r" in given else given
-        self.included: list[Self] = []
+        self.included: list[DeckFile] = []
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
@@ -78,22 +76,17 @@ class DeckFile:
         line = f"line {self.data.count(_NEWLINE, 0, at) + 1}"
         return line if self.reference is None else f"{line} of {self.path.name}"
 
-    def walk(self) -> Iterator[Self]:
+    def walk(self) -> Iterator[DeckFile]:
         """Iterate over the file and all files that it includes, included ones last."""
         yield self
         for one in self.included:
             yield from one.walk()
 
-    def lineage(self) -> list[Self]:
+    def lineage(self) -> list[DeckFile]:
         """Return the file, the one that includes it, and so on up to the deck."""
         return [self, *(self.reference.parent.lineage() if self.reference else [])]
 
-    @property
-    def size(self) -> int:
-        """Bytes of the file and of all files that it includes."""
-        return sum(len(one.given) for one in self.walk())
-
-    def include(self, name: str, begin: int, end: int, card: str) -> Self:
+    def include(self, name: str, begin: int, end: int, card: str) -> DeckFile:
         """Open a file that this one includes.
 
         Parameters
@@ -123,7 +116,7 @@ class DeckFile:
         if path.resolve() in parents or len(parents) > _MAX_DEPTH or n_files > _MAX_FILES:
             raise FileError(root.path, f"{place}: files include each other without end", "Correct the file.")
         check_readable(path, "a file of a deck")
-        self.included.append(type(self)(path, read_text_bytes(path), Reference(self, begin, end, name)))
+        self.included.append(DeckFile(path, read_text_bytes(path), Reference(self, begin, end, name)))
         return self.included[-1]
 
 

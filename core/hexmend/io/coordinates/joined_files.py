@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from hexmend.io.base.cursor import read_text_bytes
 from hexmend.io.coordinates import deck_files
-from hexmend.io.coordinates.deck_files import DeckFile
+from hexmend.io.coordinates.deck_files import DeckFile, write_files
+from hexmend.io.coordinates.edits import Edits
+from hexmend.io.storage.atomic import AtomicFiles
 
 _NEWLINE = b"\n"
 
 
 class Inclusion(NamedTuple):
-    """A card that includes files: its byte range, its name, and the names of the files with their byte ranges."""
+    """A card that includes files, whose texts take a byte range: its name, and those of the files with their ranges."""
 
+    at: int
     begin: int
     end: int
     card: str
@@ -60,7 +64,7 @@ class JoinedFiles:
         for found in self._inclusions(file.data[:end]):
             self._add_piece(file, at, found.begin, texts)
             for name in found.names:
-                line = file.data.count(_NEWLINE, 0, found.begin) + 1
+                line = file.data.count(_NEWLINE, 0, found.at) + 1
                 self._add(file.include(*name, f"{found.card} in line {line}"), texts)
             at = found.end
         self._add_piece(file, at, end, texts)
@@ -79,6 +83,16 @@ class JoinedFiles:
         k = bisect_right(self._begins, at) - 1
         file, begin = self._pieces[k]
         return file, begin + at - self._begins[k]
+
+    def write(self, files: AtomicFiles, target: Path, edits: Edits) -> tuple[str, ...]:
+        """Write the deck and its files with edits of `data`, none over the end of a file; see `write_files`."""
+        rows: dict[DeckFile, list[tuple[int, int, bytes]]] = {}
+        for begin, end, text in zip(edits.begin.tolist(), edits.end.tolist(), edits.texts, strict=True):
+            file, at = self.locate(begin)
+            rows.setdefault(file, []).append((at, at + end - begin, text))
+        own = {file: Edits.of(parts) for file, parts in rows.items()}
+        joined = partial(JoinedFiles, inclusions=self._inclusions, end=self._end)
+        return write_files(self.root, own, target, files, lambda path: joined(path).root)
 
     def place(self, at: int) -> str:
         """Name the line of an offset, such as "line 12", or "line 3 of nodes.bdf" in an included file."""

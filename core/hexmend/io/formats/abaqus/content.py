@@ -63,7 +63,7 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     points = np.concatenate([instance.points() for instance in instances])[np.concatenate(kept)]
     elements = _Elements(deck, instances, node_ids)
 
-    budget = MemoryBudget(deck.path, deck.size)
+    budget = MemoryBudget(deck.path, len(deck.data))
     of_elements = _lookups(deck, instances, elements.ids, "element_sets", budget)
     finders = [lambda name, own=own: elements.nodes_of(own.resolve(name)) for own in of_elements]
     of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget, finders)

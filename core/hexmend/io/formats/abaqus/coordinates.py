@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import quoted
-from hexmend.io.coordinates.deck_files import write_files
-from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
 from hexmend.io.formats.abaqus.deck import Card, Deck
@@ -47,7 +45,7 @@ class AbaqusCoordinates:
         for instance in instances:
             for card in instance.part.node_cards:
                 if card not in self._rows:
-                    ids[card], self._rows[card], self._fields[card] = card.deck.nodes(card)
+                    ids[card], self._rows[card], self._fields[card] = deck.nodes(card)
                 instance.part.points.append(self._rows[card])
                 instance.part.node_ids.append(ids[card])
         self._given = np.concatenate([instance.points() for instance in instances])
@@ -68,16 +66,11 @@ class AbaqusCoordinates:
                     name = quoted(instance.part.name)
                     raise CoordinatesError(f"instances of the part {name} share its nodes and have moved differently")
                 new_rows.setdefault(card, rows)
-        edits = {deck: self._edits(deck, new_rows) for deck in dict.fromkeys(card.deck for card in new_rows)}
-        return write_files(self._deck, edits, target, files, read_deck)
-
-    def _edits(self, deck: Deck, new_rows: dict[Card, np.ndarray]) -> Edits:
-        """Edits of the coordinates in one file."""
-        cards = [card for card in new_rows if card.deck is deck]
+        cards = list(new_rows)
         given, rows = (np.concatenate([table[card] for card in cards]) for table in (self._rows, new_rows))
         arrays = ([getattr(self._fields[card], name) for card in cards] for name in ("begin", "end", "absent"))
-        fields = TextFields(*map(np.concatenate, arrays))
-        return TextCoordinates(deck.given, given, fields, _WIDTH).edits(rows)
+        located = TextCoordinates(self._deck.files.data, given, TextFields(*map(np.concatenate, arrays)), _WIDTH)
+        return self._deck.files.write(files, target, located.edits(rows))
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:

@@ -1,7 +1,4 @@
-"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow.
-
-Files of an Abaqus deck, and the byte ranges of their cards.
-"""
+"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow."""
 
 from __future__ import annotations
 
@@ -13,19 +10,22 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.coordinates.deck_files import DeckFile, Reference
+from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields, word_ranges
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
+#: A line whose first letter is a single asterisk; it goes on in the next line behind a comma.
+_KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)(?:[^\n]*,[ \t]*\n)*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
 NEWLINE = b"\n"
 
 
 @dataclass(frozen=True, eq=False)
 class Card:
-    """Keyword line and data lines, of which those in an included file are a card of their own.
+    """Keyword line and data lines.
 
     Parameters
     ----------
@@ -34,11 +34,10 @@ class Card:
     options : dict of str to str
         Parameters by name in upper case; "" for those without a value.
     deck : Deck
-        File of the data lines.
     begin, end : int
         Byte range of the data lines in `Deck.data`.
     at : int
-        Offset of the keyword, or of the data lines of a keyword in another file.
+        Offset of the keyword.
     """
 
     name: str
@@ -63,48 +62,44 @@ class Card:
         return [[field.strip() for field in _split_fields(line.removesuffix(","))] for line in self.lines()]
 
 
-class Deck(DeckFile):
-    """A file of cards, and parsers of their data lines.
+class Deck:
+    """The cards of a deck and of the files that it includes, and parsers of their data lines.
 
     Parameters
     ----------
-    path, given, reference
-        As of `DeckFile`.
+    path : Path
+        Named in errors.
+    files : JoinedFiles
 
     Attributes
     ----------
     data : bytes
-        The content, with blanks in place of comments and lines that end in "\n"; offsets are those of `given`.
+        Their text, with blanks in place of comments.
     cards : list of Card
-        Cards of the file and of those that it includes, in order.
     """
 
-    def __init__(self, path: Path, given: bytes, reference: Reference | None = None):
-        super().__init__(path, given, reference)
-        self.cards: list[Card] = []
+    def __init__(self, path: Path, files: JoinedFiles):
+        self.path, self.files, self.data = path, files, files.data
         if b"**" in self.data:
             self.data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), self.data)
+        found = list(keywords(self.data))
+        ends = [*(first for first, *_ in found[1:]), len(self.data)]
+        self.cards = [
+            Card(name, options, self, min(begin, end), end, first)
+            for (first, begin, name, options), end in zip(found, ends, strict=False)
+        ]
 
     @cached_property
     def _cursor(self) -> ByteCursor:
         return ByteCursor(self.path, self.data.replace(b",", b" "))
 
-    def own_cards(self) -> Iterator[Card]:
-        """Iterate over the cards whose keywords are in the file itself, in order."""
-        next_begin, keywords = 0, list(_keyword_lines(self.data))
-        for k, (first, last) in enumerate(keywords):
-            if first < next_begin:
-                continue
-            head, begin = self.data[first:last], last + 1
-            while head.rstrip().endswith(b",") and begin < len(self.data):  # continued on the next line
-                after = self.data.find(b"\n", begin)
-                after = len(self.data) if after < 0 else after
-                head, begin = head + self.data[begin:after], after + 1
-            next_begin = begin
-            end = keywords[k + 1][0] if k + 1 < len(keywords) else len(self.data)
-            end = max(end, last)
-            name, options = _split_keyword(head.decode("utf-8", errors="replace"))
-            yield Card(name, options, self, min(begin, end), end, first)
+    def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
+        """Make the error to raise."""
+        return FileError(self.path, problem, remedy)
+
+    def place(self, at: int) -> str:
+        """Return the place of an offset, such as "line 12", or "line 3 of nodes.inp" in an included file."""
+        return self.files.place(at)
 
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray, TextFields]:
         """Return the numbers, (k,) int64, coordinates, (k, 3) float64, and their fields, of a *NODE card.
@@ -166,15 +161,11 @@ class Deck(DeckFile):
         return self.data[max(0, end - 4096) : end].rstrip()[-1:] == b","
 
 
-def _keyword_lines(data: bytes) -> Iterator[tuple[int, int]]:
-    """Byte ranges of the lines whose first letter is a single asterisk."""
-    at = data.find(b"*")
-    while at >= 0:
-        begin, end = data.rfind(b"\n", 0, at) + 1, data.find(b"\n", at)
-        end = len(data) if end < 0 else end
-        if not data[begin:at].strip(b" \t") and data[at + 1 : at + 2] != b"*":
-            yield begin, end
-        at = data.find(b"*", end)
+def keywords(data: bytes) -> Iterator[tuple[int, int, str, dict[str, str]]]:
+    """Iterate over keywords: their offset, that of the data lines, the name, and the parameters."""
+    for found in _KEYWORD.finditer(data):
+        name, options = _split_keyword(found[0].decode("utf-8", errors="replace"))
+        yield found.start(), min(found.end() + 1, len(data)), name, options
 
 
 def _node_fields(data: bytes, begin: int, end: int) -> TextFields:

@@ -209,7 +209,7 @@ class _Reader:
                 whole = _definition(sets, card.options[option]).by_instance
                 whole[name_key(name)] = SetDefinition("", ranges=[(0, _LARGEST, 1)])
         n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
-        if n_nodes > _ALWAYS_ALLOWED + self.deck.size:
+        if n_nodes > _ALWAYS_ALLOWED + len(self.deck.data):
             problem = f"its {len(self.instances)} instances have more nodes than a file of its size can define"
             raise self.deck.error(problem)
 

@@ -32,7 +32,10 @@ READERS = {
     | {"$ParametricNodes": version_2.read_parametric_nodes},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
     | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": version_4.read_periodic},
-    40: {"$Entities": partial(version_4.read_entities, is_4_0=True), "$Nodes": version_4.read_nodes_4_0}
+    40: {
+        "$Entities": partial(version_4.read_entities, is_4_0=True),
+        "$Nodes": partial(version_4.read_nodes, is_4_0=True),
+    }
     | {"$Elements": partial(version_4.read_elements, is_4_0=True)},
 }
 

@@ -104,45 +104,32 @@ def _groups(numbers: SectionNumbers, dimension: int, is_4_0: bool = False) -> li
     return groups
 
 
-def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
-    """Read $Nodes: the tags of each entity's nodes, then their coordinates."""
+def read_nodes(source: ByteCursor, order: str, sections: Sections, is_4_0: bool = False) -> None:
+    """Read $Nodes: the tags of each entity's nodes, then their coordinates; in version 4.0 node by node."""
     numbers = SectionNumbers(source, order, "Nodes", np.float64)
-    blocks, count = numbers.integers(4)[:2]
+    blocks, count = numbers.integers(2 if is_4_0 else 4)[:2]
     tags, points = [], []
     for _ in range(blocks):
-        dimension, _, parametric = numbers.integers(3, "i4")
+        dimension, entity, parametric = numbers.integers(3, "i4")
         (n_nodes,) = numbers.integers(1)
-        tags.append(numbers.take_node_tags(n_nodes))
-        width = 3 + (dimension if parametric else 0)
-        place, word = (source.pos, 8) if order else (numbers.at, 1)
-        sections.places.append((place, n_nodes, word * width))
-        points.append(native(numbers.take(n_nodes * width, "f8")).reshape(n_nodes, width)[:, :3])
-    numbers.close()
-    sections.tags, sections.points = joined(tags, np.int64), joined(points, np.float64, 3)
-    if len(sections.tags) != count:
-        raise source.error(f"$Nodes holds {len(sections.tags)} nodes: expected {count}")
-
-
-def read_nodes_4_0(source: ByteCursor, order: str, sections: Sections) -> None:
-    """Read $Nodes of version 4.0: the tag and the coordinates of each node, entity by entity."""
-    numbers = SectionNumbers(source, order, "Nodes", np.float64)
-    blocks, count = numbers.integers(2)
-    tags, points = [], []
-    for _ in range(blocks):
-        _, dimension, parametric = numbers.integers(3, "i4")
-        (n_nodes,) = numbers.integers(1)
-        width = 3 + (dimension if parametric else 0)
-        if order:
+        width = 3 + ((entity if is_4_0 else dimension) if parametric else 0)
+        if is_4_0 and order:
             row = np.dtype([("tag", f"{order}i4"), ("x", f"{order}f8", width)])
             sections.places.append((source.pos + 4, n_nodes, row.itemsize))
             rows = source.read_binary("$Nodes", n_nodes, 1, row)[:, 0]
             tags.append(rows["tag"].astype(np.int64))
             points.append(native(rows["x"])[:, :3])
-        else:
+            continue
+        if is_4_0:
             sections.places.append((numbers.at + 1, n_nodes, 1 + width))
             rows = numbers.take(n_nodes * (1 + width), "f8").reshape(n_nodes, 1 + width)
             tags.append(node_tags(source, rows[:, 0]))
             points.append(rows[:, 1:4])
+            continue
+        tags.append(numbers.take_node_tags(n_nodes))
+        place, word = (source.pos, 8) if order else (numbers.at, 1)
+        sections.places.append((place, n_nodes, word * width))
+        points.append(native(numbers.take(n_nodes * width, "f8")).reshape(n_nodes, width)[:, :3])
     numbers.close()
     sections.tags, sections.points = joined(tags, np.int64), np.ascontiguousarray(joined(points, np.float64, 3))
     if len(sections.tags) != count:

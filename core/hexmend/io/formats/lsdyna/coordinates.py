@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.deck_files import DeckFile, write_files
 from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.coordinates.text_coordinates import shortened
@@ -43,7 +42,7 @@ class DynaCoordinates:
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the deck and its files with new coordinates; see `LocatedCoordinates.write`."""
-        rows: dict[DeckFile, list[tuple[int, int, bytes]]] = {}
+        rows: list[tuple[int, int, bytes]] = []
         first, exact = 0, True
         for keyword in self.nodes:
             begin, end, free = keyword.ranges(NODE_COLUMNS)
@@ -54,8 +53,6 @@ class DynaCoordinates:
                 width = 0 if free[node] else (20 if keyword.is_long else 16)
                 text = repr(value) if len(repr(value)) < (width or 21) else shortened(value, (width or 21) - 1)
                 exact = exact and float(text) == value
-                file, at = self.files.locate(low)
-                rows.setdefault(file, []).append((at, at + high - low, text.rjust(width).encode()))
-        edits = {file: Edits.of(own) for file, own in rows.items()}
-        notes = write_files(self.files.root, edits, target, files, lambda path: join(path).root)
+                rows.append((low, high, text.rjust(width).encode()))
+        notes = self.files.write(files, target, Edits.of(rows))
         return notes if exact else (*notes, _DIGITS)

@@ -112,7 +112,7 @@ def _inclusions(data: bytes) -> Iterator[Inclusion]:
         for one in _NAME.finditer(data, *found.span(1)):
             name = re.sub(rb" \+[ \t]*\n[ \t]*", b"", one[1]).rstrip()
             names.append((name.decode("utf-8", errors="replace"), one.start(1), one.start(1) + len(one[1].rstrip())))
-        yield Inclusion(*found.span(), "*INCLUDE", names)
+        yield Inclusion(found.start(), *found.span(), "*INCLUDE", names)
 
 
 def _end(data: bytes) -> int:

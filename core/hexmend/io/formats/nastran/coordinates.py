@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.deck_files import DeckFile, write_files
 from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.formats.nastran.bulk import BulkData
@@ -158,7 +157,7 @@ class NastranCoordinates:
         new, given = self.grid.in_file(points), self.grid.given
         changed = ~(new == given)
         held = np.abs(new - given) <= 0.5 * 10.0 ** (np.floor(np.log10(np.abs(given).max() or 1.0)) - _SMALL_DIGITS + 1)
-        edits: dict[DeckFile, list[tuple[int, int, bytes]]] = {}
+        edits: list[tuple[int, int, bytes]] = []
         n_widened, exact = 0, True
         for node in np.flatnonzero(changed.any(axis=1)).tolist():
             lines = self._lines(int(self.grid.lines[node]) - 1)
@@ -171,33 +170,33 @@ class NastranCoordinates:
             after = replace_in_card(before, [None if value is None else real_field(value) for value in values])
             if len(after) > len(lines):
                 n_widened += 1
-                file, _, end, _ = lines[0]
+                file, at = self.files.locate(lines[0][0])
+                end = at + len(before[0])
                 after = [("\r\n" if file.given[end : end + 2] == b"\r\n" else "\n").join(after)]
-            for (file, begin, end, _), text in zip(lines, after, strict=True):
-                edits.setdefault(file, []).append((begin, end, text.encode("latin-1")))
-        tables = {file: Edits.of(rows) for file, rows in edits.items()}
-        own = write_files(self.files.root, tables, target, files, lambda path: join(path).root)
+            for (begin, end, _), text in zip(lines, after, strict=True):
+                edits.append((begin, end, text.encode("latin-1")))
+        own = self.files.write(files, target, Edits.of(edits))
         widened = count_phrase(n_widened, "GRID card has", "GRID cards have")
         notes = [f"{widened} become GRID* to hold all digits of the new coordinates."] if n_widened else []
         return (*own, *notes, *([] if exact else [_DIGITS]))
 
-    def _lines(self, line: int) -> list[tuple[DeckFile, int, int, bytes]]:
-        """The line of a card, and the line that continues it where that holds a coordinate: file, range and text."""
+    def _lines(self, line: int) -> list[tuple[int, int, bytes]]:
+        """The line of a card, and the line that continues it where that holds a coordinate: range and text."""
         lines = [self._line(line)]
-        if not is_large(lines[0][3].decode("latin-1")):
+        if not is_large(lines[0][2].decode("latin-1")):
             return lines
         for k in range(line + 1, len(self.bulk.start)):
             after = self._line(k)
-            text = after[3].partition(b"$")[0]
+            text = after[2].partition(b"$")[0]
             if text.strip():
                 head = (text.split(b",")[0] if b"," in text else text.expandtabs(8)[:8]).strip()
                 return [*lines, after] if head[:1] in (b"", b"+", b"*") else lines
         return lines
 
-    def _line(self, line: int) -> tuple[DeckFile, int, int, bytes]:
-        """File, byte range and text of a line without its end."""
+    def _line(self, line: int) -> tuple[int, int, bytes]:
+        """Byte range and text of a line without its end."""
         begin, end = int(self.bulk.start[line]), int(self.bulk.end[line])
-        file, first = self.files.locate(begin)
-        last = first + end - begin
-        last -= last > first and file.given[last - 1 : last + 1] == b"\r\n"
-        return file, first, last, file.given[first:last]
+        file, at = self.files.locate(begin)
+        text = file.given[at : at + end - begin]
+        text = text.removesuffix(b"\r")
+        return begin, begin + len(text), text

@@ -27,7 +27,7 @@ def _inclusions(data: bytes) -> Iterator[Inclusion]:
     for found in _INCLUDE.finditer(data):
         name = found[1].strip(found[1][:1]) if found[1][:1] in (b"'", b'"') else found[1]
         text = re.sub(rb"\s*\n\s*", b"", name).decode("utf-8", errors="replace")
-        yield Inclusion(*found.span(), "INCLUDE", [(text, *found.span(1))])
+        yield Inclusion(found.start(), *found.span(), "INCLUDE", [(text, *found.span(1))])
 
 
 def _end(data: bytes) -> int:
