@@ -232,6 +232,17 @@ def test_parts_that_are_not_connected_may_be_meant_so(tmp_path, capsys):
     assert record["fit"] is True
 
 
+def test_parts_that_the_file_joins_and_unused_nodes_are_no_faults(tmp_path, capsys):
+    mesh = gallery.make("cube", size=8)
+    points, hexes = np.vstack([mesh.points, mesh.points + [5, 0, 0], [[9, 9, 9]]]), mesh.hexes
+    write(tmp_path / "a.inp", Mesh(points, np.vstack([hexes, hexes + mesh.n_nodes])))
+    with open(tmp_path / "a.inp", "a") as deck:
+        deck.write("*EQUATION\n2\n1, 1, 1., 28, 1, -1.\n")
+    assert main(["info", str(tmp_path / "a.inp")]) == 0
+    line = capsys.readouterr().out.splitlines()[-1]
+    assert line.startswith("Fit for solving, if its unused nodes may stay: no hex is invalid")
+
+
 def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, capsys, run_command):
     path, out, repaired = tmp_path / "bent.vtu", tmp_path / "out.vtu", tmp_path / "repaired.vtu"
     line, record = ended(path, bent(inside=True), capsys)

@@ -14,6 +14,7 @@ from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
+from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
@@ -44,7 +45,9 @@ def run(args: argparse.Namespace) -> int:
     locking = _locking(mesh, quality)
     checks = _check(mesh, args.solver, quality)
     findings = _examine(mesh, args.doctor, second_order is not None and second_order.invalid > 0)
-    judgement = Judgement.of(args.mesh, quality, locking, findings, checks, second_order)
+    joined = CONTACT_CARDS in mesh.field_data  # or kept apart, by cards of the file
+    faults = [finding for finding in findings if not (joined and finding.kind == "parts")]
+    judgement = Judgement.of(args.mesh, quality, locking, faults, checks, second_order)
     if args.json:
         from hexmend.report.records import to_json  # not loaded for a report in words
 
