@@ -14,8 +14,9 @@ from hexmend.errors import MeshError
 from hexmend.hooks import hook
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
+from hexmend.mesh.fields import check_field
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
-from hexmend.mesh.second_order import move_mid_nodes
+from hexmend.mesh.solid_cells import same_solids
 from hexmend.mesh.validation import check_finite, points_like
 from hexmend.summary import Summary
 from hexmend.terminal_text import count_phrase, printable
@@ -23,7 +24,7 @@ from hexmend.terminal_text import count_phrase, printable
 __all__ = ["Mesh", "TargetSurface"]
 
 #: Fields from which the materials follow.
-_OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
+_OF_MATERIALS = {"hex_sets", "hex_data", "field_data", "cells"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -82,7 +83,7 @@ class Mesh(MeshMotion):
     @cached_property
     def mean_edge_length(self) -> float:
         """Mean edge length; see `hexmend.mesh.edge_length.mean_edge_length`."""
-        return mean_edge_length(self.points, self.hexes)
+        return mean_edge_length(self.points, self.elements)
 
     @overload
     def quality(self) -> Summary: ...
@@ -163,7 +164,7 @@ class Mesh(MeshMotion):
     def with_points(self, points: np.ndarray) -> Mesh:
         """Return the mesh with other node positions; connectivity, topology, sets and data are shared.
 
-        Mid-nodes of second-order hexes follow the corners; their rows of `points` are not read.
+        Mid-nodes of second-order cells follow the corners; their rows of `points` are not read.
 
         Parameters
         ----------
@@ -181,9 +182,7 @@ class Mesh(MeshMotion):
         """
         points = points_like(points, self.points.shape)
         check_finite(points)
-        if self.mid_nodes is not None:
-            points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
-        return self._copy(*SHARED, points=as_immutable(points))
+        return self._copy(*SHARED, points=as_immutable(self.with_mid_nodes_moved(points)))
 
     @property
     def element_target(self) -> Target | None:
@@ -209,13 +208,15 @@ class Mesh(MeshMotion):
         MeshError
             For a target of another number of hexes.
         """
-        if target is not None and len(target.lengths) != self.n_hexes:
+        if target is not None and len(target.lengths) != self.n_elements:
             hexes = count_phrase(len(target.lengths), "hex", "hexes")
-            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_hexes:,}")
+            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_elements:,}")
         return self._copy(*SHARED, _element_target=target)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
+
+        With other solid `cells` it is that of `rebuilt`.
 
         Parameters
         ----------
@@ -235,6 +236,10 @@ class Mesh(MeshMotion):
         """
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() cannot change points or hexes: use with_points() or rebuilt()")
+        if "cells" in changes:
+            cells = check_field("cells", changes["cells"], self.n_nodes, self.n_hexes)
+            if not same_solids(self.cells, cells):
+                return self.rebuilt(**changes)
         unknown = changes.keys() - self._values().keys()
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import declared
 from hexmend.quality import ElementQuality, locked_hexes
-from hexmend.quality.file_ids import hex_ids, with_ids
+from hexmend.quality.file_ids import name_cells
 from hexmend.run.recipe import Stage
 from hexmend.terminal_text import count_phrase
 
@@ -58,18 +58,18 @@ def name_invalid(mesh: Mesh, quality: ElementQuality) -> str:
     >>> from hexmend.gallery import make
     >>> from hexmend.quality import measure
     >>> mesh = make("cube", size=8)
-    >>> name_invalid(mesh, measure(mesh.points, mesh.hexes))
+    >>> name_invalid(mesh, measure(mesh.points, mesh.elements))
     ''
     """
     hexes = np.flatnonzero(quality.invalid)
     if not hexes.size:
         return ""
     more = f" and {hexes.size - _NAMED:,} more" if hexes.size > _NAMED else ""
-    locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)))
+    locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)))
     reason = f"fixed nodes keep {count_phrase(locked, 'hex', 'hexes')} inverted" if locked else ""
     if locked < hexes.size:
         reason = f"{reason}, and no valid positions were found for the others" if locked else "no valid positions found"
-    return f"Invalid hexes: {with_ids(hexes[:_NAMED].tolist(), hex_ids(mesh))}{more}; {reason}."
+    return f"Invalid hexes: {name_cells(mesh, hexes[:_NAMED].tolist())}{more}; {reason}."
 
 
 def kept_message(number: int) -> str:

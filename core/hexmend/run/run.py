@@ -72,7 +72,7 @@ class Run(Iterator[Iteration]):
             mesh = with_more_rules(mesh, MotionRules(periodic=mesh.periodic_pairs))
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
-        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+        quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
         if quality.n_inverted:
             check_orientation(mesh)
         self._shapes = ShapeWatch(mesh, quality)

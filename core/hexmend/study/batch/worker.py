@@ -96,7 +96,7 @@ def _status_of(task: Task, error: FileError) -> Status:
 
 def _figures(mesh: Mesh) -> dict[str, Any]:
     """Return the figures of `Summary`, and the objective with p = 1."""
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
     return summarise(mesh, quality).to_dict() | {"objective_p1": objective(quality, p=1.0)}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.cli.commands.info.judgement import Judgement
 from hexmend.cli.output.mesh_output import print_notes
-from hexmend.cli.output.text_tables import print_spreads, print_summaries
+from hexmend.cli.output.text_tables import print_kinds, print_spreads, print_summaries
 from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
@@ -35,7 +35,7 @@ def run(args: argparse.Namespace) -> int:
         args.solver = SOLVERS[args.solver.lower()].name  # raises before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
@@ -62,6 +62,7 @@ def run(args: argparse.Namespace) -> int:
         print(to_json(answer | judgement.to_dict()))
         return 0
     print_summaries(args.mesh, [""], [summary])
+    print_kinds(summary.cells)
     if locking is not None:
         _print_locked(args, mesh, locking)
     if mesh.materials is not None:
