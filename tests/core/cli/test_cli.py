@@ -12,7 +12,7 @@ from hexmend.quality import METRICS, metric_statistics
 
 SUMMARY = [
     "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "invalid", "min_jacobian", "q_min", "q_mean",
-    "q_max", "q_std", "q_norm", "scaled_jacobian_min", "objective",
+    "q_max", "q_std", "q_norm", "scaled_jacobian_min", "objective", "cells",
 ]  # fmt: skip
 
 

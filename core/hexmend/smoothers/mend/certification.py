@@ -13,6 +13,7 @@ from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.energy.terms import Term, Terms
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import TruncatedNewton
@@ -94,7 +95,7 @@ def curable_hexes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """
     locked = locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)
     curable = quality.invalid & ~locked & mesh.free[mesh.elements].any(axis=1)
-    curable[mesh.n_hexes :] &= quality.inverted[mesh.n_hexes :]
+    curable &= (kinds_of(mesh.elements) == 0) | quality.inverted
     overlapping = mesh.topology.overlapping_corners
     for node in np.flatnonzero(np.diff(overlapping.start)):
         hexes = np.unique(overlapping[node] // 8)
