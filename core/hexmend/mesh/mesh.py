@@ -29,7 +29,7 @@ _OF_MATERIALS = {"hex_sets", "hex_data", "field_data", "cells"}
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mesh(MeshMotion):
-    """Immutable hexahedral mesh; a change returns a copy that shares everything else.
+    """Immutable mesh of hexes and other solid cells; a change returns a copy that shares everything else.
 
     Arrays are copied unless they are immutable: the caller's stay writable, and changes to them do not change the mesh.
 
@@ -38,7 +38,8 @@ class Mesh(MeshMotion):
     points : (n, 3) float64
         Coordinates in any unit of length; kept read-only.
     hexes : (m, 8) int32
-        Corner nodes from 0, numbered as in `hexmend.mesh.hexahedron`; kept read-only.
+        Corner nodes from 0, numbered as in `hexmend.mesh.hexahedron`; kept read-only. There may be none if `cells` hold
+        other solid cells.
     pinned : (n,) bool, optional
         Nodes that are fixed in addition to those of the boundary.
     node_data, hex_data : mapping of name to (n, ...) or (m, ...) array
@@ -46,7 +47,8 @@ class Mesh(MeshMotion):
     node_sets, hex_sets : mapping of name to (k,) int array
         Named groups of nodes and hexes.
     cells : tuple of Cells
-        Cells of other kinds: boundary quads with references, feature edges, tetrahedra.
+        Cells of other kinds: tetrahedra, pyramids and wedges, which are `elements` beside the hexes; boundary quads with
+        references, feature edges.
     name : str
         Name of the mesh; the file's stem.
     side_sets : mapping of name to (k, 2) int array
@@ -138,7 +140,7 @@ class Mesh(MeshMotion):
         Returns
         -------
         (k,) int64
-            An index for `quality(metric)`, `hexes` and `hex_data`, and an argument of `plot` and `hexmend.fix_outside`.
+            An index for `quality(metric)` and `elements`, which begin with `hexes`, and an argument of `plot` and `hexmend.fix_outside`.
         """
         return hook("region")(self, *names, hexes=hexes, box=box, rings=rings)
 
