@@ -47,8 +47,8 @@ class Mesh(MeshMotion):
     node_sets, hex_sets : mapping of name to (k,) int array
         Named groups of nodes and hexes.
     cells : tuple of Cells
-        Cells of other kinds: tetrahedra, pyramids and wedges, which are `elements` beside the hexes; boundary quads with
-        references, feature edges.
+        Cells of other kinds: tetrahedra, pyramids and wedges, which are `elements` beside the hexes; boundary quads
+        with references, feature edges.
     name : str
         Name of the mesh; the file's stem.
     side_sets : mapping of name to (k, 2) int array
@@ -140,7 +140,8 @@ class Mesh(MeshMotion):
         Returns
         -------
         (k,) int64
-            An index for `quality(metric)` and `elements`, which begin with `hexes`, and an argument of `plot` and `hexmend.fix_outside`.
+            An index for `quality(metric)` and `elements`, which begin with `hexes`, and an argument of `plot` and
+            `hexmend.fix_outside`.
         """
         return hook("region")(self, *names, hexes=hexes, box=box, rings=rings)
 
