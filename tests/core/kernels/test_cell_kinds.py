@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hexmend import kernels
 from numpy.testing import assert_allclose
+
+from hexmend import kernels
 
 ROOT3 = 3**0.5
 _TETRAHEDRON = np.array([[1, 0, 0], [0.5, ROOT3 / 2, 0], [0.5, ROOT3 / 6, (2 / 3) ** 0.5]]).T
@@ -133,7 +134,7 @@ def test_energies_and_their_derivatives(delta):
 @pytest.mark.parametrize("targeted", [False, True])
 @pytest.mark.parametrize("delta", [0.0, 0.3])
 def test_the_patch_of_a_node_is_the_sum_of_its_cells(delta, targeted):
-    points, rows, about = mixed(seed=4, copies=1)
+    points, rows, _ = mixed(seed=4, copies=1)
     shared = [row[0] for row in rows]  # one node of all cells, at another place in each
     for place, row in zip((0, 4, 4, 2), rows, strict=True):
         points[row] -= points[row[place]]
