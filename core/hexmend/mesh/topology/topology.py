@@ -16,6 +16,7 @@ from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_erro
 from hexmend.mesh.solid_cells import face_nodes, kinds_of
 from hexmend.mesh.topology.components import components
 from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.split_faces import close_split_faces
 from hexmend.mesh.validation import as_bools, as_hexes
 from hexmend.parameters import Parameter
 
@@ -120,13 +121,15 @@ class Topology:
 
     @cached_property
     def _faces(self) -> tuple[np.ndarray, int]:
-        return incidence.face_neighbours(*self._corners_of_nodes)
+        neighbours, nonmanifold = incidence.face_neighbours(*self._corners_of_nodes)
+        return close_split_faces(self.elements, neighbours), nonmanifold
 
     @property
     def face_neighbours(self) -> np.ndarray:
         """Neighbour across each face of `hexmend.mesh.solid_cells.SolidKind.faces`, (m, 6) int32.
 
-        -1 on the boundary; the cell itself for a face that its kind does not have.
+        -1 on the boundary; the cell itself for a face that its kind does not have, and for a quad that two triangles
+        cover.
         """
         return self._faces[0]
 
