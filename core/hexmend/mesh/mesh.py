@@ -14,7 +14,7 @@ from hexmend.errors import MeshError
 from hexmend.hooks import hook
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
-from hexmend.mesh.fields import check_field
+from hexmend.mesh.fields import check_cells
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
 from hexmend.mesh.solid_cells import same_solids
 from hexmend.mesh.validation import check_finite, points_like
@@ -240,7 +240,7 @@ class Mesh(MeshMotion):
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() cannot change points or hexes: use with_points() or rebuilt()")
         if "cells" in changes:
-            cells = check_field("cells", changes["cells"], self.n_nodes, self.n_hexes)
+            changes["cells"] = cells = check_cells(changes["cells"], self.n_nodes)
             if not same_solids(self.cells, cells):
                 return self.rebuilt(**changes)
         unknown = changes.keys() - self._values().keys()

@@ -43,7 +43,7 @@ def name_cells(mesh: Mesh, numbers: Sequence[int] | np.ndarray) -> str:
     >>> name_cells(make("cube", size=8), [0, 2])
     '0, 2'
     """
-    kinds = kinds_of(mesh.elements[numbers]) if len(numbers) else []
+    kinds = kinds_of(mesh.elements[np.asarray(numbers, np.int64)])
     words = [f"{i} ({SOLID_KINDS[kind].name})" if kind else str(i) for i, kind in zip(numbers, kinds, strict=True)]
     ids = hex_ids(mesh)
     return ", ".join(words) + ("" if ids is None else f" (in the file {', '.join(map(str, ids[numbers].tolist()))})")

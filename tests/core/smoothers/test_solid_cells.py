@@ -6,7 +6,7 @@ import pytest
 import hexmend as hx
 from hexmend.mesh.solid_cells import SOLID_KINDS, kinds_of
 from hexmend.quality import measure
-from tests.core.grids import scrambled
+from tests.core.grids import grid, scrambled
 from tests.core.solid_lattices import honeycomb, mixed, prisms
 
 LATTICES = {"prisms": (prisms, 1.0), "honeycomb": (honeycomb, 2**0.5)}
@@ -44,7 +44,10 @@ def test_every_method_improves_all_kinds_together(name, method):
 def test_getme_inverts_no_cell_of_another_kind(method):
     mesh = scrambled(mixed(4), 0.15, 4)
     assert not mesh.quality().inverted
-    assert not hx.smooth(mesh, method).mesh.quality().inverted
+    result = hx.smooth(mesh, method)
+    assert not result.mesh.quality().inverted
+    assert "leaves wedges and pyramids as they are" in result.message
+    assert "leaves" not in hx.smooth(scrambled(grid(2), 0.1), method).message
 
 
 def test_unrelated_methods_agree_on_the_optimum_of_a_mesh_of_all_kinds():
