@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import HEXAHEDRON, PYRAMID, SOLID_BLOCKS, WEDGE
 from tests.core.grids import grid
 
 HEXES = np.empty((0, 8), np.int32)
@@ -15,13 +16,14 @@ def single(kind) -> Mesh:
     """Make one ideal cell of a kind of `SOLID_KINDS`."""
     points = np.zeros((kind.nodes, 3))
     points[kind.corners[0, 1:]] = kind.ideal.T
-    if kind.block == "hex":
+    if kind is HEXAHEDRON:
         return grid(1)
-    if kind.block == "wedge":
+    if kind is WEDGE:
         points[[4, 5]] = points[[1, 2]] + points[3]
-    if kind.block == "pyramid":
+    if kind is PYRAMID:
         points[2] = points[1] + points[3]
-    return Mesh(points, HEXES, cells=(Cells(kind.block, np.arange(kind.nodes)[None]),))
+    block = next(name for name, of in SOLID_BLOCKS.items() if of is kind)
+    return Mesh(points, HEXES, cells=(Cells(block, np.arange(kind.nodes)[None]),))
 
 
 def prisms(n: int) -> Mesh:

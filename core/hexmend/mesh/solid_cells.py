@@ -32,8 +32,6 @@ class SolidKind:
     ----------
     name, plural : str
         For messages and tables.
-    block : str
-        Name in `hexmend.mesh.cells.CELL_KINDS`; "hex" for hexes.
     nodes : int
         Number of nodes.
     faces : (6, 4) int64
@@ -54,7 +52,6 @@ class SolidKind:
 
     name: str
     plural: str
-    block: str
     nodes: int
     faces: np.ndarray
     edges: np.ndarray
@@ -66,30 +63,38 @@ class SolidKind:
 
 
 def _kind(
-    name: str,
-    block: str,
-    faces: list[list[int]],
-    corners: list[list[int]],
-    ideal: list[list[float]],
-    turned: list[int],
+    name: str, faces: list[list[int]], corners: list[list[int]], ideal: list[list[float]], turned: list[int]
 ) -> SolidKind:
-    quads = np.array(faces + [[-1] * 4] * (6 - len(faces)))
     sides = {tuple(sorted((a, b))) for face in faces for a, b in zip(face, face[1:] + face[:1], strict=True) if a != b}
-    plural = name.removesuffix("on") + "a" if name.endswith("hedron") else f"{name}s"
     edges = np.array(sorted(sides))
     upright = np.array([name == "wedge" and b - a == 3 for a, b in edges])
     return SolidKind(
-        name, plural, block, len(turned), quads, edges, np.array(corners), np.array(ideal).T, np.array(turned),
-        upright.astype(np.int64), np.array([0, 0, int(upright.any())]),
-    )  # fmt: skip
+        name=name,
+        plural="tetrahedra" if name == "tetrahedron" else f"{name}s",
+        nodes=len(turned),
+        faces=np.array(faces + [[-1] * 4] * (6 - len(faces))),
+        edges=edges,
+        corners=np.array(corners),
+        ideal=np.array(ideal).T,
+        turned=np.array(turned),
+        edge_class=upright.astype(np.int64),
+        columns=np.array([0, 0, int(upright.any())]),
+    )
 
 
 HEXAHEDRON = SolidKind(
-    "hexahedron", "hexes", "hex", 8, hexahedron.FACES, hexahedron.EDGES, hexahedron.CORNER_TETRAHEDRA, np.eye(3),
-    np.array([4, 5, 6, 7, 0, 1, 2, 3]), np.repeat(np.arange(3), 4), np.arange(3),
-)  # fmt: skip
+    name="hexahedron",
+    plural="hexes",
+    nodes=8,
+    faces=hexahedron.FACES,
+    edges=hexahedron.EDGES,
+    corners=hexahedron.CORNER_TETRAHEDRA,
+    ideal=np.eye(3),
+    turned=np.array([4, 5, 6, 7, 0, 1, 2, 3]),
+    edge_class=np.repeat(np.arange(3), 4),
+    columns=np.arange(3),
+)
 WEDGE = _kind(
-    "wedge",
     "wedge",
     [[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
     [[0, 1, 2, 3], [1, 2, 0, 4], [2, 0, 1, 5], [3, 5, 4, 0], [4, 3, 5, 1], [5, 4, 3, 2]],
@@ -98,7 +103,6 @@ WEDGE = _kind(
 )
 PYRAMID = _kind(
     "pyramid",
-    "pyramid",
     [[0, 3, 2, 1], [0, 1, 4, 4], [1, 2, 4, 4], [2, 3, 4, 4], [3, 0, 4, 4]],
     [[0, 1, 3, 4], [1, 2, 0, 4], [2, 3, 1, 4], [3, 0, 2, 4]],
     [[1, 0, 0], [0, 1, 0], [1 / 2, 1 / 2, sqrt(1 / 2)]],
@@ -106,7 +110,6 @@ PYRAMID = _kind(
 )
 TETRAHEDRON = _kind(
     "tetrahedron",
-    "tetra",
     [[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
     [[0, 1, 2, 3]],
     [[1, 0, 0], [1 / 2, sqrt(3) / 2, 0], [1 / 2, sqrt(3) / 6, sqrt(2 / 3)]],
