@@ -204,3 +204,28 @@ def test_pyramids_may_be_written_as_hexes_that_repeat_their_apex():
     rows = padded(PYRAMID, single(PYRAMID).cells[0].nodes)
     mesh = hx.Mesh(single(PYRAMID).points, rows)
     assert mesh.quality("q")[0] == pytest.approx(1)
+
+
+def test_hexes_that_meet_tetrahedra_in_two_triangles_have_no_boundary_there():
+    cubes = grid(2, 1, 1)
+    one, other = cubes.hexes
+    # The second cube in five tetrahedra: each of its faces is divided along a diagonal.
+    tetrahedra = other[[[0, 1, 2, 5], [0, 2, 3, 7], [0, 5, 7, 4], [2, 7, 5, 6], [0, 2, 7, 5]]]
+    mesh = hx.Mesh(cubes.points, one[None], cells=(hx.Cells("tetra", tetrahedra),))
+    assert not mesh.quality().inverted
+    faces = mesh.topology.boundary_faces
+    triangle = faces[:, 2] == faces[:, 3]
+    assert [int(triangle.sum()), int((~triangle).sum())] == [10, 5]
+    assert not (mesh.points[faces][:, :, 0] == 1).all(axis=1).any()
+
+
+def test_pyramids_beside_hexes_of_the_second_order_are_measured_and_moved():
+    cube = grid(1)
+    points = np.concatenate([cube.points, [[0.5, 0.5, 1.7]], [[0.5, 0, 0]]])
+    mids = np.full((1, 19), -1)
+    mids[0, 0] = 9
+    top = cube.hexes[0, [4, 5, 6, 7]]
+    mesh = hx.Mesh(points, cube.hexes, mid_nodes=mids, cells=(hx.Cells("pyramid", [[*top, 8]]),))
+    assert mesh.quality().invalid == 0
+    assert mesh.quality("mid-node-offset").tolist() == [0, 0]
+    assert mesh.quality("jacobian-ratio").shape == (2,)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import hexmend as hx
+from hexmend.locking import find_locking
 from hexmend.mesh.solid_cells import SOLID_KINDS, kinds_of
-from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 from tests.core.solid_lattices import honeycomb, mixed, prisms
 
@@ -99,20 +99,26 @@ def test_worst_cells_and_locked_ones_are_named_by_their_kind():
     worst = mesh.with_points(points).replace(pinned=np.ones(mesh.n_nodes, bool))
     which = worst.worst(6)
     assert set(kinds_of(worst.elements[which])) == {2, 3}
-    locking = hx.find_locking(worst) if hasattr(hx, "find_locking") else None
-    if locking is not None:
-        assert any(one.describe(worst).startswith("Tetrahedron") for one in locking.corners)
+    assert any(one.describe(worst).startswith("Tetrahedron") for one in find_locking(worst).corners)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("boundary", ["fixed", "slide"])
-def test_a_real_hybrid_mesh_gets_better_in_every_kind(real_mesh, boundary):
+def test_a_real_hybrid_mesh_gets_better_as_far_as_its_fixed_boundary_lets_it(real_mesh):
     mesh = hx.read(real_mesh("box_hybrid_mesh.vtu"))
     assert [mesh.n_hexes, mesh.n_elements] == [943, 943 + 7949 + 515]
-    after = hx.smooth(mesh, "mend", boundary=boundary).mesh
+    after = hx.smooth(mesh, "mend").mesh
+    np.testing.assert_array_equal(after.points[mesh.fixed], mesh.points[mesh.fixed])
+    assert not after.quality().invalid
+    assert after.quality().scaled_jacobian_min > 10 * mesh.quality().scaled_jacobian_min
+    assert after.quality().q_mean > mesh.quality().q_mean
+
+
+@pytest.mark.slow
+def test_a_real_hybrid_mesh_whose_boundary_slides_gets_better_in_every_kind(real_mesh):
+    mesh = hx.read(real_mesh("box_hybrid_mesh.vtu"))
+    after = hx.smooth(mesh, "mend", boundary="slide").mesh
     assert not after.quality().invalid
     before, now = least(mesh), least(after)
-    assert all(now[kind] >= value - 1e-9 for kind, value in before.items())
-    assert now["tetrahedron"] > 0.02
     assert set(now) == {SOLID_KINDS[k].name for k in (0, 2, 3)}
-    assert measure(after.points, after.elements).n_invalid == 0
+    assert all(now[kind] >= value for kind, value in before.items())
+    assert now["tetrahedron"] > 0.05
