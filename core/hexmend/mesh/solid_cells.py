@@ -278,6 +278,11 @@ def edges_of(elements: np.ndarray) -> np.ndarray:
     return np.concatenate([np.empty((0, 2), elements.dtype), *edges])
 
 
+def nouns(elements: np.ndarray) -> tuple[str, str]:
+    """Return the word for one of these cells (m, 8) and for several: those of hexes if there is no other cell."""
+    return ("cell", "cells") if kinds_of(elements).any() else ("hex", "hexes")
+
+
 def count_cells(elements: np.ndarray) -> str:
     """Return the numbers of cells (m, 8) by kind as words: "3 hexes", "1 hex, 2 pyramids and 5 tetrahedra"."""
     counts = np.bincount(kinds_of(elements), minlength=len(SOLID_KINDS))

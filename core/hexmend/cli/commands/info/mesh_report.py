@@ -15,6 +15,7 @@ from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
 from hexmend.terminal_text import count_phrase, printable
@@ -43,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     locking = _locking(mesh, quality)
     checks = _check(mesh, args.solver, quality)
     findings = _examine(mesh, args.doctor, second_order is not None and second_order.invalid > 0)
-    judgement = Judgement.of(args.mesh, quality, locking, findings, checks, second_order)
+    judgement = Judgement.of(args.mesh, quality, locking, findings, checks, second_order, words=nouns(mesh.elements))
     if args.json:
         from hexmend.report.records import to_json  # not loaded for a report in words
 
@@ -108,7 +109,7 @@ def _print_materials(mesh: Mesh) -> None:
     named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
     more = len(named) - _MAX_PLACES
     listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
-    print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
+    print(f"{describe_interfaces(mesh)} {nouns(mesh.elements)[1].capitalize()}: {printable(listed)}.")
 
 
 def _check(mesh: Mesh, solver: str | None, quality: ElementQuality) -> Report | None:
