@@ -105,9 +105,9 @@ class SingleHex {
 
 // Of a cell of any kind.
 inline Quality<double> cell_quality(Points points, const Hex &cell) {
+    if (kind_of(cell) == HEXAHEDRON) return SingleHex(points, cell).quality();
     return with_kind(cell, [&](auto kind) {
-        if constexpr (kind.is_cube) return SingleHex(points, cell).quality();
-        else return quality<decltype(kind)>(gather_corners<double>(points, {&cell, 1}, 0, 1));
+        return quality<decltype(kind)>(gather_corners<double>(points, {&cell, 1}, 0, 1));
     });
 }
 

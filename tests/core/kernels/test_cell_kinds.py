@@ -319,3 +319,14 @@ def test_faces_edges_and_rings_of_a_mesh_of_all_kinds():
     assert valence[number[4, 5]] == 3
     assert valence[number[0, 1]] == 2
     assert outside.all()
+
+
+def test_element_steps_of_getme_end_at_the_ideal_cell():
+    points, rows, _ = mixed(seed=12, spread=0.3)
+    places, q = np.empty((len(rows), 8, 3)), np.empty(len(rows))
+    for _ in range(200):
+        kernels.element_step.element_steps(points, rows, 1.0, 1.0, places)
+        for row, place in zip(rows, places, strict=True):
+            points[row] = place[np.minimum(range(8), len(set(row)) - 1)]
+    kernels.elements.measure(points, rows, q, *np.empty((3, len(rows))))
+    assert_allclose(q, 1, atol=1e-6)
