@@ -21,7 +21,6 @@ import numpy as np
 from hexmend.arrays import cross_products
 from hexmend.mesh import hexahedron
 from hexmend.mesh.cells import Cells
-from hexmend.terminal_text import count_phrase, listed
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +29,7 @@ class SolidKind:
 
     Parameters
     ----------
-    name, plural : str
+    name : str
         For messages and tables.
     nodes : int
         Number of nodes.
@@ -51,7 +50,6 @@ class SolidKind:
     """
 
     name: str
-    plural: str
     nodes: int
     faces: np.ndarray
     edges: np.ndarray
@@ -70,7 +68,6 @@ def _kind(
     upright = np.array([name == "wedge" and b - a == 3 for a, b in edges])
     return SolidKind(
         name=name,
-        plural="tetrahedra" if name == "tetrahedron" else f"{name}s",
         nodes=len(turned),
         faces=np.array(faces + [[-1] * 4] * (6 - len(faces))),
         edges=edges,
@@ -84,7 +81,6 @@ def _kind(
 
 HEXAHEDRON = SolidKind(
     name="hexahedron",
-    plural="hexes",
     nodes=8,
     faces=hexahedron.FACES,
     edges=hexahedron.EDGES,
@@ -281,14 +277,3 @@ def edges_of(elements: np.ndarray) -> np.ndarray:
 def nouns(elements: np.ndarray) -> tuple[str, str]:
     """Return the word for one of these cells (m, 8) and for several: those of hexes if there is no other cell."""
     return ("cell", "cells") if kinds_of(elements).any() else ("hex", "hexes")
-
-
-def count_cells(elements: np.ndarray) -> str:
-    """Return the numbers of cells (m, 8) by kind as words: "3 hexes", "1 hex, 2 pyramids and 5 tetrahedra"."""
-    counts = np.bincount(kinds_of(elements), minlength=len(SOLID_KINDS))
-    words = [
-        count_phrase(count, "hex" if kind is HEXAHEDRON else kind.name, kind.plural)
-        for kind, count in zip(SOLID_KINDS, counts.tolist(), strict=True)
-        if count or (kind is HEXAHEDRON and not counts.any())
-    ]
-    return listed(words, "and")

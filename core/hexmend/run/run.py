@@ -14,7 +14,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
-from hexmend.mesh.solid_cells import nouns, rows_by_kind
+from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
@@ -23,7 +23,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.terminal_text import count_phrase, listed
+from hexmend.terminal_text import count_phrase
 
 
 class Run(Iterator[Iteration]):
@@ -320,14 +320,10 @@ class Run(Iterator[Iteration]):
         self._end_if_done()
 
     def _note_ignored(self) -> None:
-        """Add decisions about parameters without effect, cells that the method leaves, and a target that it ignores."""
+        """Add a decision about parameters without effect, and a target of a method that minimises no energy."""
         smoother = self._stage_run.smoother
         if smoother.ignored_parameters:
             self.decisions.append(smoother.ignored_parameters)
-        kinds = [kind.plural for kind, _ in rows_by_kind(self.mesh.elements) if kind.name in smoother.leaves]
-        if kinds:
-            left = listed(kinds, "and")
-            self.decisions.append(f"{smoother.title} leaves {left} as they are: nodes follow the others.")
         if self._stage_run.target is not None and not smoother.optimises:
             self.decisions.append(f"{smoother.title} takes no account of the target of the hexes.")
 

@@ -41,8 +41,6 @@ class Smoother(Parametrised, ABC):
     title: ClassVar[str]
     help: ClassVar[str]
     source: ClassVar[str]
-    #: Kinds of solid cells that its steps do not make more regular, by the names of `hexmend.mesh.solid_cells`.
-    leaves: ClassVar[tuple[str, ...]] = ()
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
     #: Iterations after which a run ends, unless another limit is set.

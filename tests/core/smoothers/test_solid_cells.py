@@ -6,9 +6,10 @@ import pytest
 import hexmend as hx
 from hexmend.locking import find_locking
 from hexmend.mesh.solid_cells import SOLID_KINDS, kinds_of
-from tests.core.grids import grid, scrambled
+from tests.core.grids import scrambled
 from tests.core.solid_lattices import honeycomb, mixed, prisms
 
+METHODS = ["laplacian", "smart-laplacian", "getme", "local-sd", "local-patch", "global-sd", "general"]
 LATTICES = {"prisms": (prisms, 1.0), "honeycomb": (honeycomb, 2**0.5)}
 
 
@@ -29,7 +30,7 @@ def test_scrambled_lattices_come_back(name, method):
     assert np.abs(result.mesh.points - lattice.points).max() < 1e-5 * edge
 
 
-@pytest.mark.parametrize("method", ["laplacian", "smart-laplacian", "local-sd", "local-patch", "global-sd", "general"])
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", [*LATTICES, "mixed"])
 def test_every_method_improves_all_kinds_together(name, method):
     lattice = mixed(4) if name == "mixed" else LATTICES[name][0](4)
@@ -44,10 +45,7 @@ def test_every_method_improves_all_kinds_together(name, method):
 def test_getme_inverts_no_cell_of_another_kind(method):
     mesh = scrambled(mixed(4), 0.15, 4)
     assert not mesh.quality().inverted
-    result = hx.smooth(mesh, method)
-    assert not result.mesh.quality().inverted
-    assert "leaves wedges and pyramids as they are" in result.message
-    assert "leaves" not in hx.smooth(scrambled(grid(2), 0.1), method).message
+    assert not hx.smooth(mesh, method).mesh.quality().inverted
 
 
 def test_unrelated_methods_agree_on_the_optimum_of_a_mesh_of_all_kinds():

@@ -31,7 +31,6 @@ class SequentialGETMe(SlidingSmoother):
     title = "GETMe, sequential"
     help = "Raises q_min: each step makes the worst hex more regular. Best after simultaneous GETMe."
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
-    leaves = ("wedge", "pyramid")
     bytes_per_hex = 400
 
     scaling: float = parameter(1.0, low=0.01, high=10, help="s: factor of a corner's step along its triangle's normal.")

@@ -29,7 +29,6 @@ class GETMe(SlidingSmoother):
     title = "GETMe, simultaneous"
     help = "Each hex makes a step towards a cube; nodes move to the mean of their new positions. Fast; often untangles."
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
-    leaves = ("wedge", "pyramid")
     bytes_per_hex = 600
 
     scaling: float = parameter(1.0, low=0.01, high=10, help="s: factor of a corner's step along its triangle's normal.")
