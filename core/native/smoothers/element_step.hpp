@@ -10,9 +10,9 @@
 
 namespace hexmend {
 
-// The places of a hex's corners before scaling, and their mean.
-template <class T> inline Corners<T> regularised_hex(const Corners<T> &x, double s, V3<T> &middle) {
-    V3<T> f[6];
+// Targets of the corners of a hex: scale s, blend rho in (0, 1].
+template <class T> inline Corners<T> hex_step(const Corners<T> &x, double s, double rho) {
+    V3<T> f[6], middle;
     unroll<6>([&](auto i) {
         auto [a, b, c, d] = FACES[i];
         f[i] = broadcast<T>(0.25) * (x.at[a] + x.at[b] + x.at[c] + x.at[d]);
@@ -26,14 +26,16 @@ template <class T> inline Corners<T> regularised_hex(const Corners<T> &x, double
         y.at[k] = broadcast<T>(1.0 / 3.0) * (f[a] + f[b] + f[c]) + along * n;
         middle += broadcast<T>(0.125) * y.at[k];
     });
+    T before = edge_lengths(x), after = edge_lengths(y);
+    T zeta = after > 0.0 ? before / after : broadcast<T>(0.0);
+    for (int c = 0; c < 8; ++c) y.at[c] = x.at[c] + broadcast<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
     return y;
 }
 
-// Those of other cells: each node goes along n_k, the derivative of the volume, by s n_k/sqrt(mean |n|). Where faces of
-// different forms meet their shares are weighed, so that the ideal cell only grows: quads of a wedge by 2/3, that of a
-// pyramid by 4/5, and all of the apex by 2/5.
+// The places of the nodes of other cells before scaling, and their mean: each goes along n_k, the derivative of the
+// volume, by s n_k/sqrt(mean |n|). Where faces of different forms meet their shares are weighed, so that the ideal cell
+// only grows: quads of a wedge by 2/3, that of a pyramid by 4/5, and all of the apex by 2/5.
 template <class Cell, class T> inline Corners<T> regularised(const Corners<T> &x, double s, V3<T> &middle) {
-    if constexpr (Cell::is_cube) return regularised_hex(x, s, middle);
     constexpr int nodes = Cell::table.nodes;
     Corners<T> n, y = x;
     unroll<Cell::table.faces>([&](auto f) {
@@ -51,8 +53,9 @@ template <class Cell, class T> inline Corners<T> regularised(const Corners<T> &x
     return y;
 }
 
-// Targets of the nodes of a cell: scale s, blend rho in (0, 1].
+// Targets of the nodes of any cell.
 template <class Cell, class T> inline Corners<T> element_step(const Corners<T> &x, double s, double rho) {
+    if constexpr (Cell::is_cube) return hex_step(x, s, rho);
     constexpr int nodes = Cell::table.nodes;
     V3<T> middle;
     Corners<T> y = regularised<Cell>(x, s, middle);
