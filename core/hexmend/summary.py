@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,9 +21,11 @@ def _figure(label: str, help: str, text: Callable[[Any], str], better: int = 0, 
 class Summary:
     """Counts and quality of a mesh, (2.11), (2.12); every field is described by its entry in `SUMMARY_QUANTITIES`.
 
-    `nodes` counts nodes used by a hex; `locked_inverted` inverted hexes that fixed nodes alone keep inverted; `q_norm`
-    is 1/sqrt(mean(1/q^2)), 0 if any q is 0; `objective` is the sum of eta(H)^2 at delta = 0, None if any hex is
-    inverted; `min_jacobian` is a lower bound.
+    All but `hexes` is over all solid cells. `nodes` counts nodes used by a cell; `locked_inverted` inverted cells that
+    fixed nodes alone keep inverted; `q_norm` is 1/sqrt(mean(1/q^2)), 0 if any q is 0; `objective` is the sum of
+    eta(H)^2 at delta = 0, None if any cell is inverted; `min_jacobian` is a lower bound; `cells` has for each kind of
+    the mesh (hexahedron, wedge, pyramid, tetrahedron) its count, inverted, invalid, q_min, q_mean and
+    scaled_jacobian_min.
     """
 
     hexes: int = _figure("hexes", "Number of hexahedral elements.", format_count)
@@ -95,18 +97,20 @@ class Summary:
         -1,
     )
 
+    cells: Mapping[str, Mapping[str, float | int]] = dataclasses.field(default_factory=dict, hash=False)
+
     def __repr__(self) -> str:
         hexes, nodes = count_phrase(self.hexes, "hex", "hexes"), count_phrase(self.nodes, "node")
         keys = ("q_min", "q_mean", "scaled_jacobian_min")
         qualities = ", ".join(f"{SUMMARY_QUANTITIES[key].label} {format_quality(getattr(self, key))}" for key in keys)
         return f"<Summary: {hexes}, {nodes}, {self.inverted:,} inverted, {self.invalid:,} invalid; {qualities}>"
 
-    def to_dict(self) -> dict[str, float | int | None]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the values by name."""
         return dataclasses.asdict(self)
 
 
 #: Quantities of a summary by the names of its fields, in order.
 SUMMARY_QUANTITIES: dict[str, Quantity] = {
-    field.name: Quantity(field.name, **field.metadata) for field in dataclasses.fields(Summary)
+    field.name: Quantity(field.name, **field.metadata) for field in dataclasses.fields(Summary) if field.metadata
 }

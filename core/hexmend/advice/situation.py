@@ -59,8 +59,8 @@ class Situation:
         self._outside = np.zeros(self.mesh.n_nodes, dtype=bool) if outside is None else outside
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
-        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)  # of corners: mid-nodes follow
-        is_locked = locked_hexes(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
+        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.elements)  # of corners: mid-nodes follow
+        is_locked = locked_hexes(self.mesh.points, self.mesh.elements, self.mesh.fixed, self.quality.inverted)
         self.locked = np.flatnonzero(is_locked)
         self.unlocked = np.flatnonzero(self.quality.inverted & ~is_locked)
         self.inside = np.flatnonzero(self.quality.invalid & ~self.quality.inverted)
@@ -109,7 +109,7 @@ class Situation:
             return now["inverted"] < then["inverted"]
         same = now["objective_formula"] == then["objective_formula"]  # else they are of two objectives
         if same and now["objective"] is not None and then["objective"] is not None:
-            least = self.smoother.norm.cube_value * self.mesh.n_hexes
+            least = self.smoother.norm.cube_value * self.mesh.n_elements
             return then["objective"] - now["objective"] > _MIN_RELATIVE_FALL * (then["objective"] - least)
         return now["q_mean"] > then["q_mean"] + _MIN_RISE
 
@@ -117,18 +117,18 @@ class Situation:
     def worst_can_move(self) -> bool:
         """True if the worst hex that is not inverted has a free node."""
         q = np.where(self.quality.inverted, np.inf, self.quality.q)
-        return bool(self.mesh.free[self.mesh.hexes[int(q.argmin())]].any())
+        return bool(self.mesh.free[self.mesh.elements[int(q.argmin())]].any())
 
     @cached_property
     def freed(self) -> int:
         """Number of the locked hexes that a sliding boundary can free."""
-        which = mask(self.locked, self.mesh.n_hexes)
+        which = mask(self.locked, self.mesh.n_elements)
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, self.smoother.feature_angle)))
 
     @property
     def slidable_nodes(self) -> int:
         """Number of the fixed nodes of invalid hexes that are not locked, and that move if the boundary slides."""
-        fixed = np.unique(self.mesh.hexes[np.concatenate([self.unlocked, self.inside])])
+        fixed = np.unique(self.mesh.elements[np.concatenate([self.unlocked, self.inside])])
         fixed = fixed[(self.mesh.fixed & ~self.mesh.immovable)[fixed]]
         return fixed.size
 
@@ -147,20 +147,21 @@ class Situation:
         mesh = self.mesh
         if mesh.pinned is None:
             return np.zeros(0, dtype=np.int64)
-        pinned, nodes = mesh.pinned & ~self._outside, np.unique(mesh.hexes[self.resisting])
+        pinned, nodes = mesh.pinned & ~self._outside, np.unique(mesh.elements[self.resisting])
         released = mesh.replace(pinned=mesh.pinned & self._outside).free & ~mesh.free
         nodes = nodes[released[nodes]]
         pins = nodes[pinned[nodes]]
-        if mesh.mid_nodes is None:
-            return pins
-        moving = mask(nodes, mesh.n_nodes)[mesh.hexes] @ (MID_NODE_WEIGHTS > 0).T
-        mid_nodes = mesh.mid_nodes[moving & (mesh.mid_nodes >= 0)]
+        moves = mask(nodes, mesh.n_nodes)
+        mid_nodes = mesh.middles[moves[mesh.middles[:, 1:]].any(axis=1), 0]
+        if mesh.mid_nodes is not None:
+            moving = moves[mesh.hexes] @ (MID_NODE_WEIGHTS > 0).T
+            mid_nodes = np.append(mid_nodes, mesh.mid_nodes[moving & (mesh.mid_nodes >= 0)])
         return np.union1d(pins, mid_nodes[pinned[mid_nodes]])
 
     @cached_property
     def outside_nodes(self) -> np.ndarray:
         """Nodes of resisting hexes that are free but for the part to which the run was limited, (j,) int."""
-        nodes = np.unique(self.mesh.hexes[self.resisting])
+        nodes = np.unique(self.mesh.elements[self.resisting])
         nodes = nodes[self._outside[nodes]]
         pinned = None if self.mesh.pinned is None else self.mesh.pinned & ~self._outside
         return nodes[self._movable(self.mesh.replace(pinned=pinned))[nodes]]
@@ -171,7 +172,7 @@ class Situation:
         rules, found = self.mesh.node_rules.rules, []
         if not rules.fix or not self.resisting.size:
             return ()
-        nodes = np.unique(self.mesh.hexes[self.resisting])
+        nodes = np.unique(self.mesh.elements[self.resisting])
         without = self._movable(with_rules(self.mesh, replace(rules, fix=())))
         released = nodes[(without & ~self._movable(self.mesh) & ~self._outside)[nodes]]
         for name in rules.fix:

@@ -139,8 +139,10 @@ def surface_change(before: Mesh, after: Mesh, feature_angle: FeatureAngle = FEAT
     >>> round(change.volume_change, 12), change.moved, change.features, change.features_kept
     (2.375, 55, 36, 36)
     """
-    if before.n_nodes != after.n_nodes or not np.array_equal(before.hexes, after.hexes):
-        raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
+    if before.n_nodes != after.n_nodes or not np.array_equal(before.elements, after.elements):
+        raise MeshError(
+            f"{before.n_elements} and {after.n_elements} hexes that are not the same: expected one mesh, moved"
+        )
     before = before.with_points(before.surface_points)
     old = SkinSurface(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)

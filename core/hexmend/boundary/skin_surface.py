@@ -143,7 +143,9 @@ class SkinSurface:
         nodes = self.faces[pieces[:, 2] - len(self.points)]
         weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
         for end in range(2):
-            weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
+            here = nodes == pieces[:, end, None]
+            shares = found.weights[:, end] / np.maximum(here.sum(axis=1), 1)  # a triangle has its last node twice
+            weights += np.where(here, shares[:, None], 0.0)
         return nodes, weights
 
     def nodes_of_pieces(self, pieces: np.ndarray) -> np.ndarray:

@@ -27,7 +27,7 @@ class NonManifoldFaces(Problem):
             return NONE_FOUND
         faces = np.sort(mesh.hexes[:, FACES], axis=2).reshape(-1, 4)
         _, which, times = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
-        alone = mesh.topology.face_neighbours.ravel() < 0
+        alone = mesh.topology.face_neighbours[: mesh.n_hexes].ravel() < 0
         return np.unique(np.flatnonzero(alone & (times[which.reshape(-1)] > 1)) // 6)
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:

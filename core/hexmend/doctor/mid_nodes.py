@@ -55,10 +55,11 @@ def _bad_between_corners(mesh: Mesh, points: np.ndarray) -> np.ndarray:
 def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:
     """Mark the nodes that stay: on the boundary, on interfaces, pinned, or shared with other cells, (n,) bool."""
     assert mesh.mid_nodes is not None
-    outer = mesh.topology.face_neighbours < 0
+    across = mesh.topology.face_neighbours[: mesh.n_hexes]
+    outer = across < 0
     if mesh.materials is not None:
         material = mesh.materials.of_hex
-        outer = outer | (material[mesh.topology.face_neighbours] != material[:, None])
+        outer = outer | (material[across] != material[: mesh.n_hexes, None])
     rows, faces = np.nonzero(outer)
     nodes = mesh.mid_nodes[rows[:, None], FACE_COLUMNS[faces]]
     kept = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()

@@ -83,8 +83,11 @@ class HangingNodes(Problem):
         if quick:
             return NONE_FOUND
         faces = mesh.topology.boundary_faces
-        x = mesh.points[faces]
-        middles = np.concatenate([(x + np.roll(x, -1, axis=1)).reshape(-1, 3) / 2, x.mean(axis=1)])
+        x, is_quad = mesh.points[faces], faces[:, 2] != faces[:, 3]
+        sides = (x + np.roll(x, -1, axis=1)) / 2
+        at_side = np.ones(faces.shape, dtype=bool)
+        at_side[~is_quad, 2] = False
+        middles = np.concatenate([sides[at_side], x[is_quad].mean(axis=1)])
         nodes = np.flatnonzero(mesh.topology.boundary)
         pairs = close_pairs(np.concatenate([mesh.points[nodes], middles]), _merge_distance(mesh))
         node, middle = pairs.T

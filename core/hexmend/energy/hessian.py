@@ -82,7 +82,7 @@ class Hessian(SymmetricOperator):
             return (self._in_space(np.float64) @ v.ravel()).reshape(-1, 3)
         kernels.hessian_product(
             self.x,
-            energy.mesh.hexes,
+            energy.mesh.elements,
             energy.slots,
             v,
             self.delta,

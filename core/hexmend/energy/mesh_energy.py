@@ -81,12 +81,12 @@ class MeshEnergy(TargetScales):
     ):
         self.mesh = mesh
         self.norm = norm
-        self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
+        self.omitted = as_omitted_corners(omitted, mesh.n_elements)
         self.unit = mesh.mean_edge_length or 1.0
         self.motion = motion or Motion(mesh)
         self.nodes, self.ranks, owned = self.motion.nodes, self.motion.ranks, self.motion.owned
-        self.counted = slice(None) if owned is None else owned[mesh.hexes[:, 0]]
-        self.n_hexes = mesh.n_hexes if owned is None else self.ranks.sum(int(self.counted.sum()))
+        self.counted = slice(None) if owned is None else owned[mesh.elements[:, 0]]
+        self.n_hexes = mesh.n_elements if owned is None else self.ranks.sum(int(self.counted.sum()))
         self._set_target(mesh)
         self.barrier: FloorBarrier | HeightBarrier | None = None
         self.surface: Term | None = None
@@ -121,7 +121,7 @@ class MeshEnergy(TargetScales):
     @cached_property
     def slots(self) -> np.ndarray:
         """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
-        return index_of(self.motion.free, self.mesh.n_nodes)[self.mesh.hexes]
+        return index_of(self.motion.free, self.mesh.n_nodes)[self.mesh.elements]
 
     @property
     def sparsity(self) -> BlockSparsity:
@@ -193,7 +193,7 @@ class MeshEnergy(TargetScales):
             As of `MeshEnergy`.
         """
         other = copy.copy(self)
-        other.norm, other.omitted = norm, as_omitted_corners(omitted, self.mesh.n_hexes)
+        other.norm, other.omitted = norm, as_omitted_corners(omitted, self.mesh.n_elements)
         return other
 
     def with_barrier(self, barrier: FloorBarrier | HeightBarrier | None) -> MeshEnergy:
@@ -227,17 +227,17 @@ class MeshEnergy(TargetScales):
 
     def hex_energies(self, x: np.ndarray, delta: float = 0.0, offset: float = 1.0) -> np.ndarray:
         """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
-        return energies(self.as_points(x), self.mesh.hexes, delta, self.omitted, offset, self.target)
+        return energies(self.as_points(x), self.mesh.elements, delta, self.omitted, offset, self.target)
 
     def barriers(self, x: np.ndarray) -> np.ndarray | float:
         """Compute the barrier of floors of every hex at points x (n, 3), (m,), or 0 where there is none."""
         if self.barrier is None:
             return 0.0
-        return self.barrier.hex_values(self.as_points(x), self.mesh.hexes, self.omitted, self.target)
+        return self.barrier.hex_values(self.as_points(x), self.mesh.elements, self.omitted, self.target)
 
     def with_barriers(self, x: np.ndarray, delta: float, among: np.ndarray | None = None) -> np.ndarray:
         """Compute eta(H) plus the barrier at points x (n, 3), (k,) float64, of some hexes (k,) int or of all."""
-        hexes, omitted, target, barrier = self.mesh.hexes, self.omitted, self.target, self.barrier
+        hexes, omitted, target, barrier = self.mesh.elements, self.omitted, self.target, self.barrier
         if among is not None:
             hexes, omitted, target = hexes.take(among, axis=0), omitted[among], self._target_of(among)
             barrier = None if barrier is None else barrier.on_part(among)
@@ -270,9 +270,9 @@ class MeshEnergy(TargetScales):
     def _gradient_in_space(self, x: np.ndarray, delta: float) -> np.ndarray:
         """Compute the gradient by all free nodes, as if they were free in space, (k, 3)."""
         shares = self.corner_buffer
-        kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
+        kernels.gradient(x, self.mesh.elements, delta, self.norm, self.omitted, shares, self.target)
         if self.barrier is not None:
-            self.barrier.add_gradient(x, self.mesh.hexes, self.omitted, shares, self.target)
+            self.barrier.add_gradient(x, self.mesh.elements, self.omitted, shares, self.target)
         gradient = self.sum_at_nodes()
         if self.surface is not None:
             gradient += self.surface.gradient(x, self.norm)[self.motion.free]
@@ -313,7 +313,7 @@ class MeshEnergy(TargetScales):
     @property
     def corner_buffer(self) -> np.ndarray:
         """Storage for the contributions of hexes at their corners, (m, 8, 3), until the workspace is used again."""
-        return self._workspace.array((self.mesh.n_hexes, 8, 3), np.float64)
+        return self._workspace.array((self.mesh.n_elements, 8, 3), np.float64)
 
     def release_workspace(self) -> None:
         """Free the memory of temporary arrays until they are wanted again."""

@@ -75,13 +75,13 @@ class BlockSparsity:
         if parts is None:
             count = np.count_nonzero(free)
             parts = max((parts for least, parts in _PARTS if count >= least), default=1)
-        self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, free, parts)
+        self.nodes, self.bounds = ordering.slots(mesh.elements, rings.start, rings.items, free, parts)
         self.order, self.ghosts = np.argsort(self.nodes).astype(np.int32), 0
         if owned is not None:
             ghosts = np.flatnonzero(mesh.free & ~owned).astype(np.int32)
             self.nodes, self.ghosts = np.concatenate([self.nodes, ghosts]), ghosts.size
         self._slot_of_node = index_of(self.nodes, mesh.n_nodes)
-        self._hexes, self._topology, self.has_opposite = mesh.hexes, mesh.topology, True
+        self._hexes, self._topology, self.has_opposite = mesh.elements, mesh.topology, True
         self._shares: tuple[int, HexShares | None] = 0, None
         if self.packs:  # a large mesh has no memory for what is needed once
             mesh.topology.release_rings()

@@ -12,8 +12,8 @@ import numpy as np
 from hexmend.arrays import row_norms
 from hexmend.energy.ranks import Ranks
 from hexmend.kernels.target import TargetMatrices
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import has_node, rows_by_kind
 
 #: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
 #: directions differ by the square.
@@ -41,12 +41,15 @@ def wanted_lengths(mesh: Mesh) -> np.ndarray | None:
     target = mesh.element_target
     if target is None or target.size_weight > 0:
         return None if target is None else target.lengths
-    ends = ((mesh.points[mesh.hexes[:, node]] for node in edge) for edge in EDGES)
-    edges = np.stack([row_norms(one - other) for one, other in ends], axis=1).reshape(-1, 3, 4)
-    edges.sort(axis=2)
-    # The median of the four parallel edges is hardly changed by a node that is far away.
-    with np.errstate(divide="ignore"):
-        sizes = np.exp(np.log(edges[:, :, 1:3].mean(axis=2)).mean(axis=1))
+    sizes = np.empty(mesh.n_elements)
+    for kind, rows in rows_by_kind(mesh.elements):
+        ends = mesh.points[mesh.elements[rows][:, kind.edges]]
+        edges = row_norms(ends[:, :, 0] - ends[:, :, 1])
+        # The median of the parallel edges is hardly changed by a node that is far away.
+        columns = [np.sort(edges[:, kind.edge_class == of], axis=1) for of in kind.columns]
+        middles = [own[:, (own.shape[1] - 1) // 2 : own.shape[1] // 2 + 1].mean(axis=1) for own in columns]
+        with np.errstate(divide="ignore"):
+            sizes[rows] = np.exp(np.log(np.stack(middles, axis=1)).mean(axis=1))
     sizes = np.maximum(sizes, _MIN_SIZE * (mesh.mean_edge_length or 1.0))
     return target.lengths * (sizes / np.exp(np.log(target.lengths).mean(axis=1)))[:, None]
 
@@ -102,7 +105,7 @@ def node_sizes(mesh: Mesh) -> np.ndarray | float:
         return unit
     sizes = np.full(mesh.n_nodes, unit)
     shortest = lengths.min(axis=1)
-    for corner in mesh.hexes.T:
+    for corner in mesh.elements.T:
         np.minimum.at(sizes, corner, shortest)
     return sizes
 
@@ -165,7 +168,8 @@ class TargetScales:
         if self._lengths is None:
             return None
         squares, corners = np.square(self.unit / self._lengths).mean(axis=1), self.mesh.topology.node_corners
-        sums = np.bincount(self.mesh.hexes.ravel(), np.repeat(squares, 8), self.mesh.n_nodes)
+        nodes = has_node(self.mesh.elements)
+        sums = np.bincount(self.mesh.elements[nodes], np.repeat(squares, nodes.sum(axis=1)), self.mesh.n_nodes)
         return np.sqrt(np.diff(corners.start)[self.nodes] / sums[self.nodes])[:, None]
 
     @cached_property

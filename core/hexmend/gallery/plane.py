@@ -90,7 +90,7 @@ class Plane(GalleryMesh):
         move, fixed = np.zeros_like(points), np.zeros(len(points), dtype=bool)
         move[skin] = layers[0] - grid[skin]
         fixed[skin] = fixed[box] = True
-        around = np.concatenate([core.hexes, shell])
+        around = np.concatenate([core.elements, shell])
         points += diffuse(move, fixed, around, min(round(FOLLOW * plan.scale**2), MOST_SWEEPS))
 
         used, hexes = _compact(np.concatenate([around, coat]))  # without nodes inside the aeroplane

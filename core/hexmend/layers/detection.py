@@ -53,8 +53,8 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     >>> bool(find_layers(make("cube", size=64))), [wall.depth for wall in find_layers(make("layered")).walls]
     (False, [20])
     """
-    neighbours = mesh.topology.face_neighbours
-    hexes, faces = np.nonzero(neighbours < 0)
+    neighbours = mesh.topology.hex_neighbours
+    hexes, faces = np.nonzero(mesh.topology.face_neighbours[: mesh.n_hexes] < 0)
     volume, area, side = sizes_at_wall(mesh, hexes, faces)
     flat = volume * THIN <= side * area
     if not flat.any():
@@ -134,8 +134,8 @@ def layers_on_sets(mesh: Mesh, names: Sequence[str], quality: ElementQuality | N
     >>> layers_on_sets(mesh, list(mesh.side_sets)[:1]).walls[0].depth
     20
     """
-    neighbours = mesh.topology.face_neighbours
-    hexes, faces = np.nonzero(neighbours < 0)
+    neighbours = mesh.topology.hex_neighbours
+    hexes, faces = np.nonzero(mesh.topology.face_neighbours[: mesh.n_hexes] < 0)
     wall = np.full(len(hexes), "", dtype=object)
     for name in names:
         marks = _faces_in_set(mesh, name, hexes, faces)
@@ -155,4 +155,4 @@ def _faces_in_set(mesh: Mesh, name: str, hexes: np.ndarray, faces: np.ndarray) -
     if name in mesh.side_sets:
         rows = np.asarray(mesh.side_sets[name], dtype=np.int64)
         return np.isin(6 * hexes + faces, 6 * rows[:, 0] + rows[:, 1])
-    return mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.topology.boundary_faces].all(axis=1)
+    return mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.topology.boundary_faces[: len(hexes)]].all(axis=1)

@@ -122,7 +122,7 @@ def layer_report(
     tuple of LayerReport
         One for each wall.
     """
-    unmoved = (after.points == before.points).all(axis=1)[after.hexes].all(axis=1)
+    unmoved = (after.points == before.points).all(axis=1)[after.elements].all(axis=1)
     new = np.where(unmoved[:, None], lengths, given_lengths(after))  # a hex that stays as it is loses nothing
     reports = []
     for wall in layers.walls:
@@ -199,7 +199,7 @@ def grading_message(before: Mesh, after: Mesh, quality: ElementQuality) -> str:
     """
     if np.mean(quality.scaled_jacobian < DISTORTED) > MAX_DISTORTED:
         return ""
-    sample = np.arange(0, before.n_hexes, before.n_hexes // _SAMPLE + 1)
+    sample = np.arange(0, before.n_elements, before.n_elements // _SAMPLE + 1)
     factors = np.exp(np.abs(np.log(given_lengths(after, sample) / given_lengths(before, sample)))).max(axis=1)
     if np.mean(factors > _MUCH) < _SHARE:
         return ""

@@ -142,7 +142,7 @@ def run_target(
     ParameterError
         For a target that does not exist.
     """
-    quality = quality or measure(mesh.points, mesh.hexes)
+    quality = quality or measure(mesh.points, mesh.elements)
     fits = True
     if specification == AUTO:
         if mesh.element_target is not None:

@@ -10,9 +10,9 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.sliding.flat_parts import FlatPart, flat_parts
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import SOLID_KINDS, corner_tetrahedra, has_corner, kinds_of
 from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import fixed_tetrahedra
 
@@ -40,7 +40,7 @@ class LockedCorner:
     ----------
     hex : int
     corner : int
-        Row of `hexmend.mesh.hexahedron.CORNER_TETRAHEDRA`.
+        Row of `hexmend.mesh.solid_cells.SolidKind.corners`.
     nodes : tuple of int
         Its four nodes, the apex first.
     reason : Reason
@@ -59,7 +59,9 @@ class LockedCorner:
     def describe(self, mesh: Mesh | None = None) -> str:
         """Return the proof as a sentence, with the numbers that the file of `mesh` gives to hex and nodes."""
         others = ", ".join(map(str, self.nodes[1:]))
-        place = f"Hex {self.hex} at node {self.nodes[0]}, with its edges to {others}"
+        kind = 0 if mesh is None else kinds_of(mesh.elements[[self.hex]])[0]
+        cell = SOLID_KINDS[kind].name.capitalize() if kind else "Hex"
+        place = f"{cell} {self.hex} at node {self.nodes[0]}, with its edges to {others}"
         of_hexes, of_nodes = (None, None) if mesh is None else (hex_ids(mesh), node_ids(mesh))
         if of_hexes is not None and of_nodes is not None:
             first, *rest = of_nodes[list(self.nodes)].tolist()
@@ -86,10 +88,11 @@ def find_locked_corners(mesh: Mesh, sliding: SlidingBoundary, hexes: np.ndarray)
     tuple of LockedCorner
         By hex and corner.
     """
-    tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]
+    cells = mesh.elements[hexes]
+    tetrahedra = corner_tetrahedra(cells)
     parts = flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length)
-    at, corner = np.nonzero(_constant(mesh.points, tetrahedra, _projectors(sliding, parts)))
-    fixed = fixed_tetrahedra(mesh.hexes[hexes], sliding.mesh.fixed)
+    at, corner = np.nonzero(has_corner(cells) & _constant(mesh.points, tetrahedra, _projectors(sliding, parts)))
+    fixed = fixed_tetrahedra(cells, sliding.mesh.fixed)
     count = {2: np.zeros(fixed.shape, dtype=np.int64), 1: np.zeros(fixed.shape, dtype=np.int64)}
     for part in parts:
         dimension = part.directions.shape[1]

@@ -17,7 +17,7 @@ from hexmend.locking.locked_corners import LockedCorner, find_locked_corners
 from hexmend.locking.visibility import nodes_without_space
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes, measure
-from hexmend.quality.file_ids import hex_ids, node_ids, with_ids
+from hexmend.quality.file_ids import name_cells, node_ids, with_ids
 from hexmend.terminal_text import count_phrase
 
 #: Hexes and nodes that a sentence names.
@@ -61,8 +61,11 @@ def describe_overlap(mesh: Mesh) -> str:
     if not hexes.size:
         return ""
     named = [
-        with_ids(found[:_NAMED].tolist(), ids) + (f" and {found.size - _NAMED:,} more" if found.size > _NAMED else "")
-        for found, ids in ((hexes, hex_ids(mesh)), (nodes, node_ids(mesh)))
+        words + (f" and {found.size - _NAMED:,} more" if found.size > _NAMED else "")
+        for found, words in (
+            (hexes, name_cells(mesh, hexes[:_NAMED].tolist())),
+            (nodes, with_ids(nodes[:_NAMED].tolist(), node_ids(mesh))),
+        )
     ]
     return (
         f"No position of the nodes makes all of {count_phrase(hexes.size, 'hex', 'hexes')} valid without overlap: "
@@ -163,8 +166,8 @@ def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: Elem
     >>> find_locking(mesh.with_points(points)).phrase
     '1 locked; 1 that neither mends'
     """
-    quality = measure(mesh.points, mesh.hexes) if quality is None else quality
-    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
+    quality = measure(mesh.points, mesh.elements) if quality is None else quality
+    locked = locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)
     candidates = np.flatnonzero(locked | (quality.scaled_jacobian <= _FLAT))
     if not candidates.size:
         nothing = np.empty(0, dtype=bool)
@@ -174,12 +177,13 @@ def find_locking(mesh: Mesh, feature_angle: float = FEATURE_ANGLE, quality: Elem
     proven = np.unique(np.array([one.hex for one in corners], dtype=np.int64))
     hexes = np.union1d(np.flatnonzero(locked), proven)
     is_proven = np.isin(hexes, proven)
-    unmendable = is_proven & np.isin(hexes, _without_layer(mesh, corners, proven))
+    mended_by_no_layer = np.isin(hexes, _without_layer(mesh, corners, proven)) | (hexes >= mesh.n_hexes)
+    unmendable = is_proven & mended_by_no_layer
     return Locking(hexes, is_proven & ~unmendable, unmendable, corners)
 
 
 def _without_layer(mesh: Mesh, corners: tuple[LockedCorner, ...], hexes: np.ndarray) -> np.ndarray:
     """Find the hexes, of some (k,) with these locked corners, that no layer under the boundary mends."""
-    blocked = mask(nodes_without_space(mesh, hexes), mesh.n_nodes)[mesh.hexes[hexes]].any(axis=1)
+    blocked = mask(nodes_without_space(mesh, hexes), mesh.n_nodes)[mesh.elements[hexes]].any(axis=1)
     inside = [one.hex for one in corners if not mesh.topology.boundary[list(one.nodes)].any()]
     return np.union1d(hexes[blocked], np.array(inside, dtype=np.int64))

@@ -34,10 +34,12 @@ def nodes_without_space(mesh: Mesh, hexes: np.ndarray) -> np.ndarray:
     """
     x, quads = mesh.points, mesh.topology.boundary_faces
     ahead, back = np.roll(quads, -1, axis=1), np.roll(quads, 1, axis=1)
+    triangle = quads[:, 2] == quads[:, 3]  # with its last node twice
+    ahead[triangle, 2], back[triangle, 3] = quads[triangle, 0], quads[triangle, 1]
     normals = unit_vectors(np.cross(x[ahead] - x[quads], x[back] - x[quads])).reshape(-1, 3)
     at = quads.ravel()
     order = np.argsort(at, kind="stable")
-    nodes = np.unique(mesh.hexes[hexes])
+    nodes = np.unique(mesh.elements[hexes])
     nodes = nodes[mesh.topology.boundary[nodes]]
     start, end = np.searchsorted(at, nodes, sorter=order), np.searchsorted(at, nodes, "right", sorter=order)
     sines = [inward_direction(normals[order[i:j]])[1] for i, j in zip(start, end, strict=True)]

@@ -1,4 +1,4 @@
-"""Cells other than hexes, which a mesh keeps unchanged from file to file."""
+"""Cells other than hexes, whose nodes a mesh keeps in the order of the file."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ CELL_KINDS = {
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cells of one kind other than hexes; they are kept for writing and take no part in computations.
+    """Cells of one kind other than hexes; those that are solid are among `hexmend.Mesh.elements`.
 
     Parameters
     ----------

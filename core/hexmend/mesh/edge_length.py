@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.kernels import elements
-from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.solid_cells import edges_of, rows_by_kind
 from hexmend.mesh.validation import as_points_and_hexes
 
 #: The longest edges are outliers if the mean of all exceeds this multiple of the trimmed mean.
@@ -54,10 +54,10 @@ def sample_stride(m: int) -> int:
 
 
 def edge_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Compute the lengths of the edges of hexes (k, 8), (12 k,) float64."""
-    ends = points[hexes][:, EDGES]
+    """Compute the lengths of the edges of cells (k, 8), (e,) float64; an edge counts for each of its cells."""
+    ends = points[edges_of(hexes)]
     with np.errstate(over="ignore"):
-        return np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
+        return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
 
 
 def robust_mean(mean: float, sample: np.ndarray) -> float:
@@ -75,7 +75,10 @@ def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 
 
 def hex_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Compute the lengths of hexes along x, y and z of their numbering: means of four parallel edges.
+    """Compute the lengths of cells along the edges of their corners.
+
+    Those of a hex along x, y and z of its numbering are means of four parallel edges. A wedge has the mean edge of its
+    triangles twice, then that between them; a pyramid and a tetrahedron have their mean edge three times.
 
     Parameters
     ----------
@@ -85,7 +88,7 @@ def hex_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     Returns
     -------
     (k, 3) float64
-        In the unit of the points; 0 in a direction without extent, positive for inverted hexes too.
+        In the unit of the points; 0 in a direction without extent, positive for inverted cells too.
 
     Examples
     --------
@@ -94,8 +97,12 @@ def hex_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     array([[1., 2., 3.]])
     """
     lengths = np.zeros((len(hexes), 3))
-    for number, (a, b) in enumerate(EDGES):
-        along = points[hexes[:, a]]
-        along -= points[hexes[:, b]]
-        lengths[:, number // 4] += np.sqrt(np.einsum("ij,ij->i", along, along))
-    return lengths / 4
+    for kind, rows in rows_by_kind(hexes):
+        own, found = hexes[rows], np.zeros((len(lengths[rows]), 3))
+        for (a, b), of in zip(kind.edges, kind.edge_class, strict=True):
+            along = points[own[:, a]]
+            along -= points[own[:, b]]
+            found[:, of] += np.sqrt(np.einsum("ij,ij->i", along, along))
+        found[:, : kind.edge_class.max() + 1] /= np.bincount(kind.edge_class)
+        lengths[rows] = found[:, kind.columns]
+    return lengths

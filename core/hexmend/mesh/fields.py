@@ -37,9 +37,7 @@ def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
         label, of_nodes, check = _TABLES[field]
         return _arrays(value, label, nodes if of_nodes else hexes, check)
     if field == "cells":
-        if not isinstance(value, Iterable):
-            raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
-        return tuple(_check_cells(cells, nodes) for cells in value)
+        return check_cells(value, nodes)
     if field == "pinned" and value is not None:
         return as_immutable(as_bools(value, "pinned", nodes))
     if field == "mid_nodes" and value is not None:
@@ -163,6 +161,13 @@ def _as_rows(values: object, label: str, count: int) -> np.ndarray:
     if len(array) != count:
         raise MeshError(f"{label} has {len(array)} rows: expected {count}")
     return array
+
+
+def check_cells(value: object, nodes: int) -> tuple[Cells, ...]:
+    """Check blocks of cells other than hexes of a mesh with so many nodes; raises `MeshError`."""
+    if not isinstance(value, Iterable):
+        raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
+    return tuple(_check_cells(cells, nodes) for cells in value)
 
 
 def _check_cells(cells: object, nodes: int) -> Cells:

@@ -160,10 +160,11 @@ def fix_outside(mesh: Mesh, hexes: Sequence[int] | np.ndarray, rings: int = 0) -
         For rings that are no whole number from 0.
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
-    inside = as_numbers(hexes, "hexes", mesh.n_hexes)
-    region[mesh.hexes[mesh.topology.hexes_around(inside, rings)]] = True
+    inside = as_numbers(hexes, "hexes", mesh.n_elements)
+    region[mesh.elements[mesh.topology.hexes_around(inside, rings)]] = True
     if mesh.mid_nodes is not None:
         region[mesh.mid_nodes[mesh.mid_nodes >= 0]] = True
+    region[mesh.middles[:, 0]] = True
     rules = mesh.node_rules
     if rules.free is not None:  # a rule frees no node outside the region
         mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))

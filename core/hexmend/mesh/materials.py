@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
+from typing import NamedTuple
 
 import numpy as np
 
 from hexmend.arrays import as_immutable
-from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.solid_cells import face_nodes, solid_blocks
 from hexmend.mesh.topology import Topology
 
 #: Name of field data that list hex sets that are only blocks of a structured grid, and no materials.
@@ -54,7 +57,7 @@ class Materials:
     @cached_property
     def interface_nodes(self) -> np.ndarray:
         """True for nodes of hexes of two or more materials, (n,) bool."""
-        hexes, marks = self.topology.hexes, np.zeros(self.topology.n, dtype=bool)
+        hexes, marks = self.topology.elements, np.zeros(self.topology.n, dtype=bool)
         some = np.zeros(self.topology.n, dtype=np.int32)  # the material of one hex of each node
         some[hexes] = self.of_hex[:, None]
         marks[hexes[some[hexes] != self.of_hex[:, None]]] = True
@@ -64,10 +67,11 @@ class Materials:
     def interface_sides(self) -> np.ndarray:
         """Faces between hexes of two materials, each once, (k, 4) int64.
 
-        In each row a hex, its face in `hexmend.mesh.hexahedron.FACES`, the hex across it, and that one's face; the
-        first hex is of the material with the lower index, so that the faces of one interface have one orientation.
+        In each row a cell, its face in `hexmend.mesh.solid_cells.SolidKind.faces`, the cell across it, and that one's
+        face; the first cell is of the material with the lower index, so that the faces of one interface have one
+        orientation.
         """
-        near = self.interface_nodes[self.topology.hexes].sum(axis=1) >= 4
+        near = self.interface_nodes[self.topology.elements].sum(axis=1) >= 3
         hexes = np.flatnonzero(near)
         across = self.topology.face_neighbours[hexes]
         of_both = self.of_hex[hexes][:, None] < np.where(across < 0, -1, self.of_hex[across])
@@ -80,10 +84,19 @@ class Materials:
     def interface_faces(self) -> np.ndarray:
         """Nodes of each face of `interface_sides`, counter-clockwise from the hex across it, (k, 4) int32."""
         hexes, sides = self.interface_sides[:, 0], self.interface_sides[:, 1]
-        return as_immutable(self.topology.hexes[hexes[:, None], FACES[sides]])
+        return as_immutable(face_nodes(self.topology.elements, hexes, sides))
 
     def __len__(self) -> int:
         return len(self.names)
+
+
+class _Part(NamedTuple):
+    """Cells of one block: their kind, data, sets and number."""
+
+    kind: str
+    data: Mapping[str, np.ndarray]
+    sets: Mapping[str, np.ndarray]
+    length: int
 
 
 def find_materials(
@@ -91,8 +104,11 @@ def find_materials(
     hex_sets: Mapping[str, np.ndarray],
     hex_data: Mapping[str, np.ndarray],
     blocks: Collection[str] = (),
+    cells: Sequence[Cells] = (),
 ) -> Materials | None:
-    """Find the materials of a mesh: by data that number them, else by sets that divide the hexes.
+    """Find the materials of a mesh: by data that number them, else by sets that divide the cells.
+
+    A block of wedges, pyramids or tetrahedra without these data or sets is a material of its own, if there are two.
 
     Parameters
     ----------
@@ -104,6 +120,8 @@ def find_materials(
         Whole numbers under a usual name such as "MaterialIds", "medit:ref" or "region".
     blocks : collection of str
         Names of sets that are no materials.
+    cells : sequence of Cells
+        Blocks of other cells of the mesh.
 
     Returns
     -------
@@ -118,11 +136,10 @@ def find_materials(
     >>> found.names, int(found.interface_nodes.sum()), len(found.interface_faces)
     (('low', 'high'), 9, 4)
     """
-    m = len(topology.hexes)
-    found = _by_data(hex_data, m)
-    if found is None:
-        sets = {name: members for name, members in hex_sets.items() if name not in blocks and 0 < len(members) < m}
-        found = _by_sets(sets, m)
+    solids = [_Part(one.kind, one.data, one.sets, len(one.nodes)) for one in solid_blocks(cells)]
+    hexes = len(topology.elements) - sum(part.length for part in solids)
+    parts = [part for part in (_Part("hex", hex_data, hex_sets, hexes), *solids) if part.length]
+    found = _by_data(parts) or _by_sets(parts, blocks)
     return None if found is None else Materials(found[0], as_immutable(found[1]), topology)
 
 
@@ -135,27 +152,62 @@ def _key(name: str) -> str:
     return "".join(filter(str.isalnum, name.lower()))
 
 
-def _by_data(hex_data: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
-    """Materials by the first data with a usual name and two or more whole numbers, fewer than half the hexes."""
-    names = {_key(name): name for name in reversed(list(hex_data))}
+def _by_data(parts: Sequence[_Part]) -> tuple[tuple[str, ...], np.ndarray] | None:
+    """Materials by the first data with a usual name and two or more whole numbers, fewer than half the cells."""
+    names = {_key(name): name for part in reversed(parts) for name in reversed(list(part.data))}
     for name in _DATA_NAMES:
-        if name not in names:
+        of_parts = [_numbers(part, names.get(name, "")) for part in parts]
+        known = [values for values in of_parts if values is not None]
+        if not known:
             continue
-        values = np.asarray(hex_data[names[name]])
-        if values.shape not in ((m,), (m, 1)) or values.dtype.kind not in "iuf":
-            continue
-        values = values.ravel()
+        values = np.concatenate(known)
         low, high = values.min(), values.max()
         if not low < high or not (np.isfinite(low) and np.isfinite(high)) or (values != np.floor(values)).any():
             continue
-        numbers, of_hex = np.unique(values, return_inverse=True)
-        if 2 * len(numbers) <= m:
-            return tuple(str(int(number)) for number in numbers), of_hex.ravel().astype(np.int32)
+        numbers, of_cell = np.unique(values, return_inverse=True)
+        if 2 * len(numbers) <= len(values):
+            has_numbers = [values is not None for values in of_parts]
+            return _with_own(tuple(str(int(number)) for number in numbers), of_cell.ravel(), parts, has_numbers)
     return None
 
 
-def _by_sets(sets: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
-    """Materials by sets that hold every hex exactly once."""
+def _numbers(part: _Part, name: str) -> np.ndarray | None:
+    """Values of the data of this name, a number for each cell; None if the part has none."""
+    values = np.asarray(part.data.get(name, ()))
+    return values.ravel() if values.shape in ((part.length,), (part.length, 1)) and values.dtype.kind in "iuf" else None
+
+
+def _by_sets(parts: Sequence[_Part], blocks: Collection[str]) -> tuple[tuple[str, ...], np.ndarray] | None:
+    """Materials by sets that hold every cell exactly once, but those of blocks without a set."""
+    has_sets = [any(name not in blocks and len(rows) for name, rows in part.sets.items()) for part in parts]
+    sets: dict[str, np.ndarray] = {}
+    m = 0
+    for part in (part for part, has in zip(parts, has_sets, strict=True) if has):
+        for name, rows in part.sets.items():
+            sets[name] = np.concatenate([sets[name], np.asarray(rows) + m]) if name in sets else np.asarray(rows) + m
+        m += part.length
+    found = _dividing({name: rows for name, rows in sets.items() if name not in blocks and 0 < len(rows) < m}, m)
+    return None if found is None else _with_own(*found, parts, has_sets)
+
+
+def _with_own(
+    names: tuple[str, ...], of_cell: np.ndarray, parts: Sequence[_Part], known: Sequence[bool]
+) -> tuple[tuple[str, ...], np.ndarray]:
+    """Return the names and the place (m,) of each cell's, with one more material for each part that is not known."""
+    answer, rows, first = list(names), [], 0
+    for part, is_known in zip(parts, known, strict=True):
+        if is_known:
+            rows.append(of_cell[first : first + part.length])
+            first += part.length
+        else:
+            rows.append(np.full(part.length, len(answer)))
+            titles = (part.kind if k == 1 else f"{part.kind} {k}" for k in count(1))
+            answer.append(next(title for title in titles if title not in answer))
+    return tuple(answer), np.concatenate(rows).astype(np.int32)
+
+
+def _dividing(sets: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
+    """Names of sets that hold each of m cells exactly once, and the place of each cell's among them."""
     names, members = tuple(sets), list(sets.values())
     if sum(map(len, members)) < m:
         return None

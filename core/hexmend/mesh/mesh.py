@@ -14,8 +14,9 @@ from hexmend.errors import MeshError
 from hexmend.hooks import hook
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
+from hexmend.mesh.fields import check_cells
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
-from hexmend.mesh.second_order import move_mid_nodes
+from hexmend.mesh.solid_cells import same_solids
 from hexmend.mesh.validation import check_finite, points_like
 from hexmend.summary import Summary
 from hexmend.terminal_text import count_phrase, printable
@@ -23,12 +24,12 @@ from hexmend.terminal_text import count_phrase, printable
 __all__ = ["Mesh", "TargetSurface"]
 
 #: Fields from which the materials follow.
-_OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
+_OF_MATERIALS = {"hex_sets", "hex_data", "field_data", "cells"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mesh(MeshMotion):
-    """Immutable hexahedral mesh; a change returns a copy that shares everything else.
+    """Immutable mesh of hexes and other solid cells; a change returns a copy that shares everything else.
 
     Arrays are copied unless they are immutable: the caller's stay writable, and changes to them do not change the mesh.
 
@@ -37,7 +38,8 @@ class Mesh(MeshMotion):
     points : (n, 3) float64
         Coordinates in any unit of length; kept read-only.
     hexes : (m, 8) int32
-        Corner nodes from 0, numbered as in `hexmend.mesh.hexahedron`; kept read-only.
+        Corner nodes from 0, numbered as in `hexmend.mesh.hexahedron`; kept read-only. There may be none if `cells` hold
+        other solid cells.
     pinned : (n,) bool, optional
         Nodes that are fixed in addition to those of the boundary.
     node_data, hex_data : mapping of name to (n, ...) or (m, ...) array
@@ -45,7 +47,8 @@ class Mesh(MeshMotion):
     node_sets, hex_sets : mapping of name to (k,) int array
         Named groups of nodes and hexes.
     cells : tuple of Cells
-        Cells of other kinds: boundary quads with references, feature edges, tetrahedra.
+        Cells of other kinds: tetrahedra, pyramids and wedges, which are `elements` beside the hexes; boundary quads
+        with references, feature edges.
     name : str
         Name of the mesh; the file's stem.
     side_sets : mapping of name to (k, 2) int array
@@ -82,7 +85,7 @@ class Mesh(MeshMotion):
     @cached_property
     def mean_edge_length(self) -> float:
         """Mean edge length; see `hexmend.mesh.edge_length.mean_edge_length`."""
-        return mean_edge_length(self.points, self.hexes)
+        return mean_edge_length(self.points, self.elements)
 
     @overload
     def quality(self) -> Summary: ...
@@ -137,7 +140,8 @@ class Mesh(MeshMotion):
         Returns
         -------
         (k,) int64
-            An index for `quality(metric)`, `hexes` and `hex_data`, and an argument of `plot` and `hexmend.fix_outside`.
+            An index for `quality(metric)` and `elements`, which begin with `hexes`, and an argument of `plot` and
+            `hexmend.fix_outside`.
         """
         return hook("region")(self, *names, hexes=hexes, box=box, rings=rings)
 
@@ -163,7 +167,7 @@ class Mesh(MeshMotion):
     def with_points(self, points: np.ndarray) -> Mesh:
         """Return the mesh with other node positions; connectivity, topology, sets and data are shared.
 
-        Mid-nodes of second-order hexes follow the corners; their rows of `points` are not read.
+        Mid-nodes of second-order cells follow the corners; their rows of `points` are not read.
 
         Parameters
         ----------
@@ -181,9 +185,7 @@ class Mesh(MeshMotion):
         """
         points = points_like(points, self.points.shape)
         check_finite(points)
-        if self.mid_nodes is not None:
-            points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
-        return self._copy(*SHARED, points=as_immutable(points))
+        return self._copy(*SHARED, points=as_immutable(self.with_mid_nodes_moved(points)))
 
     @property
     def element_target(self) -> Target | None:
@@ -209,13 +211,15 @@ class Mesh(MeshMotion):
         MeshError
             For a target of another number of hexes.
         """
-        if target is not None and len(target.lengths) != self.n_hexes:
+        if target is not None and len(target.lengths) != self.n_elements:
             hexes = count_phrase(len(target.lengths), "hex", "hexes")
-            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_hexes:,}")
+            raise MeshError(f"the target is for {hexes}: the mesh has {self.n_elements:,}")
         return self._copy(*SHARED, _element_target=target)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
+
+        With other solid `cells` it is that of `rebuilt`.
 
         Parameters
         ----------
@@ -235,6 +239,10 @@ class Mesh(MeshMotion):
         """
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() cannot change points or hexes: use with_points() or rebuilt()")
+        if "cells" in changes:
+            changes["cells"] = cells = check_cells(changes["cells"], self.n_nodes)
+            if not same_solids(self.cells, cells):
+                return self.rebuilt(**changes)
         unknown = changes.keys() - self._values().keys()
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")

@@ -5,15 +5,18 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import as_immutable, as_immutable_owned
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.fields import check_field
+from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
+from hexmend.mesh.solid_cells import middles_of, solid_rows
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, check_finite
 
@@ -49,12 +52,15 @@ class MeshData:
         check_finite(points)
         check_size(points)
         hexes = as_hexes(self.hexes, len(points))
-        if not len(hexes):
-            raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
         # A view, so that meshes share an array of hexes only if one was derived from the other and has its topology.
         self._set(points=as_immutable(points), hexes=as_immutable(hexes).view())
         self._set_checked(self._values())
-        self._set(topology=Topology(self.hexes, len(points)))
+        others = solid_rows(self.points, self.cells)
+        if not len(hexes) + sum(map(len, others)):
+            raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex, or cells that are solid")
+        elements = as_immutable_owned(np.concatenate([self.hexes, *others])) if others else self.hexes
+        self._set(topology=Topology(elements, len(points), len(hexes)))
+        self._set(hexes=self.topology.hexes)
 
     def __deepcopy__(self, memo: dict[int, object]) -> MeshData:
         return self  # it is immutable
@@ -81,8 +87,43 @@ class MeshData:
             object.__setattr__(self, name, value)
 
     @property
+    def elements(self) -> np.ndarray:
+        """All solid cells, (m, 8) int32: `hexes` first, then wedges, pyramids and tetrahedra, block after block.
+
+        See `hexmend.mesh.solid_cells`. Those of the second order are here by their corners. A block whose cells are
+        mostly inside out is turned here, not in `cells`.
+        """
+        return self.topology.elements
+
+    @cached_property
+    def middles(self) -> np.ndarray:
+        """Mid-nodes of wedges, pyramids and tetrahedra of the second order, with the ends of their edges, (k, 3)."""
+        return middles_of(self.cells, self.topology.used)
+
+    @property
+    def has_mid_nodes(self) -> bool:
+        """True if cells of the second order have mid-nodes, which follow the corners."""
+        return self.mid_nodes is not None or len(self.middles) > 0
+
+    def with_mid_nodes_moved(self, points: np.ndarray) -> np.ndarray:
+        """Return node positions (n, 3), of which corners are read, with the mid-nodes moved as their corners are."""
+        if self.mid_nodes is not None:
+            points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
+        if len(self.middles):
+            points = points.copy()
+            middle, one, other = self.middles[::-1].T  # the first cell with a mid-node is written last
+            moves = points - self.points
+            points[middle] = self.points[middle] + (moves[one] + moves[other]) / 2
+        return points
+
+    @property
+    def n_elements(self) -> int:
+        """Number of all solid cells."""
+        return len(self.topology.elements)
+
+    @property
     def n_nodes(self) -> int:
-        """Number of nodes, used by a hex or not."""
+        """Number of nodes, used by a cell or not."""
         return len(self.points)
 
     @property

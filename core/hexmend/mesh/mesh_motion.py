@@ -21,7 +21,7 @@ from hexmend.mesh.validation import as_bools, check_finite, points_like
 from hexmend.terminal_text import count_phrase
 
 #: Cached properties that do not depend on the points.
-SHARED = ("fixed", "free", "immovable", "embedded", "materials")
+SHARED = ("fixed", "free", "immovable", "embedded", "materials", "middles")
 #: Corners of cells of dimension 0 to 2; others have four.
 _CORNERS = {"vertex": 1, "line": 2, "line3": 2, "triangle": 3, "triangle6": 3}
 
@@ -47,7 +47,7 @@ class MeshMotion(MeshData):
         """The partition of the hexes by material; None for one material. See `hexmend.mesh.materials`."""
         blocks = self.field_data.get(STRUCTURED_BLOCKS, ())
         blocks = {str(name) for name in np.ravel(np.asarray(blocks, dtype=object))}
-        return find_materials(self.topology, self.hex_sets, self.hex_data, blocks)
+        return find_materials(self.topology, self.hex_sets, self.hex_data, blocks, self.cells)
 
     @property
     def node_rules(self) -> NodeRules:
@@ -106,6 +106,7 @@ class MeshMotion(MeshData):
             stays |= rules.fixed
         if self.mid_nodes is not None and stays.any():
             stays |= corners_of_mid_nodes(stays, self.hexes, self.mid_nodes)
+        stays[self.middles[stays[self.middles[:, 0]], 1:]] = True
         return as_immutable(stays)
 
     @cached_property

@@ -202,12 +202,12 @@ def mirror_hexes(mesh: Mesh, which: np.ndarray) -> Mesh:
 
 
 def parts_of(mesh: Mesh, others: bool = False) -> np.ndarray:
-    """The part that each hex belongs to, parts hanging together by nodes; (m,) int from 0.
+    """The part that each solid cell belongs to, parts hanging together by nodes; (m,) int from 0.
 
     Parameters
     ----------
     mesh : Mesh
     others : bool
-        Cells of other kinds join parts too.
+        Shells, beams and other cells of lower dimension join parts too.
     """
-    return components_of_cells(mesh.n_nodes, mesh.hexes, *(cells.nodes for cells in mesh.cells if others))
+    return components_of_cells(mesh.n_nodes, mesh.elements, *(cells.nodes for cells in mesh.cells if others))

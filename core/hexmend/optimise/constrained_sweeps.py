@@ -53,7 +53,7 @@ class ConstrainedSweeps:
         root = mesh.linear_motion.roots(mesh.n_nodes)
         moves = np.zeros(mesh.n_nodes, dtype=bool)
         moves[root[chosen & mesh.free]] = True
-        colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)
+        colours = Topology(root[mesh.elements], mesh.n_nodes).colouring(moves)
         self._parts = [_Colour(energy, colours[i]) for i in range(len(colours))]
 
     def __call__(

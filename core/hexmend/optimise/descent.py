@@ -11,7 +11,6 @@ from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.topology.marked_rows import any_of_rows
 from hexmend.optimise.search_direction import (
     NEGLIGIBLE,
@@ -244,7 +243,7 @@ def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: n
     step : (k, 3) float64
         Of the free nodes, in mean edge lengths; changed.
     """
-    hexes = energy.mesh.hexes
+    hexes = energy.mesh.elements
     limit = energy.with_barriers(x, delta)
     limit *= DESCENT.growth_factor
     limit += DESCENT.growth_summand
@@ -274,7 +273,7 @@ def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Return True if every hex is a cube but for rounding, and no floor: gradient and Hessian are noise then."""
     if energy.barrier is not None:
         return False
-    eta = len(CORNER_TETRAHEDRA) * np.finfo(float).eps  # of each corner
+    eta = 8 * np.finfo(float).eps  # of each of a hex's corners
     # Softened, a hex may have less energy than a cube.
     highest = energy.norm.contribution(eta) if delta == 0 else eta**energy.norm.p
     count = energy.n_hexes if energy.surface is None else energy.n_hexes + energy.surface.total_weight

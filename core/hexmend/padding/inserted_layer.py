@@ -87,7 +87,7 @@ class Sheet:
         rows = np.flatnonzero(self.region & mask(self.quads, n)[mesh.hexes].any(axis=1))
         place = np.full(mesh.n_hexes, -1)
         place[rows] = np.arange(rows.size)
-        across = mesh.topology.face_neighbours[rows]
+        across = mesh.topology.hex_neighbours[rows]
         inside = (across >= 0) & ~self.is_padded[rows] & (place[across] >= 0)
         one, face = np.nonzero(inside & (rows[:, None] < across))
         other = place[across[one, face]]

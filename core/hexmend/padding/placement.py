@@ -112,7 +112,10 @@ def _materials_at(materials: Materials, nodes: np.ndarray, ends: np.ndarray) -> 
     pairs = np.sort(materials.topology.hexes[:, EDGES].astype(np.int64), axis=2)
     of_edges = (pairs[..., 0] * n + pairs[..., 1]).ravel()
     wanted = np.isin(of_edges, keys)
-    found = np.unique(np.stack([of_edges[wanted], np.repeat(materials.of_hex, 12)[wanted]], axis=1), axis=0)
+    found = np.unique(
+        np.stack([of_edges[wanted], np.repeat(materials.of_hex[: len(materials.topology.hexes)], 12)[wanted]], axis=1),
+        axis=0,
+    )
     edge, count = np.unique(found[:, 0], return_counts=True)
     return count[np.searchsorted(edge, keys)]
 
@@ -120,7 +123,7 @@ def _materials_at(materials: Materials, nodes: np.ndarray, ends: np.ndarray) -> 
 def _on_other_boundary(sheet: Sheet, copies: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """Mark the edges that are edges of boundary faces outside the sheet, (j,) bool."""
     mesh = sheet.mesh
-    hexes, faces = np.nonzero((mesh.topology.face_neighbours < 0) & ~sheet.is_padded)
+    hexes, faces = np.nonzero((mesh.topology.hex_neighbours < 0) & ~sheet.is_padded)
     quads = mesh.hexes[hexes[:, None], FACES[faces]].astype(np.int64)
     sides = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     nodes = sheet.originals[copies]

@@ -58,7 +58,7 @@ def region_sheet(mesh: Mesh, region: np.ndarray) -> Sheet:
         See `check_mesh`.
     """
     check_mesh(mesh)
-    across = mesh.topology.face_neighbours
+    across = mesh.topology.hex_neighbours
     return Sheet(mesh, region, np.argwhere(region[:, None] & ((across < 0) | ~region[across])))
 
 
@@ -83,7 +83,7 @@ def around_sheet(mesh: Mesh, hexes: np.ndarray, rings: int = 1) -> Sheet:
     MeshError
         For a hex that does not exist, and see `check_mesh`.
     """
-    region = mesh.topology.hexes_around(hexes, rings)
+    region = mesh.topology.hexes_around(hexes, rings)[: mesh.n_hexes]
     while True:
         try:
             return region_sheet(mesh, region)
@@ -161,7 +161,7 @@ def check_mesh(mesh: Mesh) -> None:
 
 def _boundary_sides(mesh: Mesh, name: str) -> np.ndarray:
     """Find the sides of hexes on the boundary that are in a set, (k, 2) int64."""
-    on_boundary = mesh.topology.face_neighbours < 0
+    on_boundary = mesh.topology.hex_neighbours < 0
     if name in mesh.side_sets:
         chosen = np.zeros_like(on_boundary)
         rows = mesh.side_sets[name]
@@ -181,7 +181,7 @@ def _boundary_sides(mesh: Mesh, name: str) -> np.ndarray:
 def _sides_on(mesh: Mesh, quads: list[np.ndarray]) -> np.ndarray:
     """Mark the boundary sides whose corners are those of one of some quads (j, 4 or more), (m, 6) bool."""
     marks = np.zeros((mesh.n_hexes, 6), dtype=bool)
-    sides = np.argwhere(mesh.topology.face_neighbours < 0)
+    sides = np.argwhere(mesh.topology.hex_neighbours < 0)
     corners = np.sort(mesh.hexes[sides[:, :1], FACES[sides[:, 1]]], axis=1)
     given = np.sort(np.concatenate([quad[:, :4] for quad in quads if quad.shape[1] >= 4] or [corners[:0]]), axis=1)
     found = find_rows(given, corners) >= 0
@@ -191,7 +191,7 @@ def _sides_on(mesh: Mesh, quads: list[np.ndarray]) -> np.ndarray:
 
 def _check_rim(sheet: Sheet, name: str) -> None:
     """Raise where a sheet under boundary faces cannot end on the others."""
-    mesh, on_boundary = sheet.mesh, sheet.mesh.topology.face_neighbours < 0
+    mesh, on_boundary = sheet.mesh, sheet.mesh.topology.hex_neighbours < 0
     rest = on_boundary & ~sheet.is_padded
     behind, side = sheet.faces[sheet.rim[:, 0], 0], sheet.rim[:, 1]
     ends = np.stack([sheet.quads[sheet.rim[:, 0], k % 4] for k in (side, side + 1)], axis=1)

@@ -75,9 +75,9 @@ def extensions(sheet: Sheet, sides: np.ndarray) -> Extension:
         first = (at_corner[:, :, None] == ends[at][:, None, :]).any(axis=2)
         follows = first & np.roll(first, -1, axis=1)
         found.append((rows[at], number[at], follows.argmax(axis=1)))
-        across = mesh.topology.face_neighbours[hexes, faces].astype(np.int64)
+        across = mesh.topology.hex_neighbours[hexes, faces].astype(np.int64)
         on = np.flatnonzero((number < 0) & (across >= 0) & sheet.region[across])
-        back = (mesh.topology.face_neighbours[across[on]] == hexes[on][:, None]).argmax(axis=1)
+        back = (mesh.topology.hex_neighbours[across[on]] == hexes[on][:, None]).argmax(axis=1)
         rows, hexes, faces, ends = rows[on], across[on], back, ends[on]
     if not found:
         found = [(np.empty(0, np.int64),) * 3]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.solid_cells import SolidKind, rows_by_kind
 from hexmend.mesh.validation import as_points_and_hexes
 from hexmend.quality.finite_volume.geometry import chunks, cross, divide, dot, norm
 
@@ -33,12 +33,20 @@ def least_heights(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """
     points, hexes = as_points_and_hexes(points, hexes)
     least = np.empty(len(hexes))
-    for part in chunks(len(hexes)):
-        x = points[hexes[part]].transpose(2, 1, 0)  # (3, 8, k)
+    for kind, rows in rows_by_kind(hexes):
+        least[rows] = _of_kind(points, hexes[rows], kind)
+    return least
+
+
+def _of_kind(points: np.ndarray, cells: np.ndarray, kind: SolidKind) -> np.ndarray:
+    """Compute the least heights of cells (m, 8) of one kind, (m,)."""
+    least = np.empty(len(cells))
+    for part in chunks(len(cells)):
+        x = points[cells[part]].transpose(2, 1, 0)  # (3, 8, k)
         with np.errstate(over="ignore", invalid="ignore"):
             x = x - x[:, :1]
         x, exponent = _near_one(x)
-        apex, *ends = (x[:, CORNER_TETRAHEDRA[:, i]] for i in range(4))
+        apex, *ends = (x[:, kind.corners[:, i]] for i in range(4))
         edges = [end - apex for end in ends]
         faces = [cross(edges[(i + 1) % 3], edges[(i + 2) % 3]) for i in range(3)]
         volume, area = dot(edges[0], faces[0]), np.max([norm(face) for face in faces], axis=0)

@@ -42,8 +42,8 @@ def material_volumes(mesh: Mesh) -> dict[str, float]:
     materials = mesh.materials
     if materials is None:
         return {}
-    volumes = np.empty(mesh.n_hexes)
-    faces.volume(mesh.points, mesh.hexes, volumes)
+    volumes = np.empty(mesh.n_elements)
+    faces.volume(mesh.points, mesh.elements, volumes)
     sums = np.bincount(materials.of_hex, np.where(np.isfinite(volumes), volumes, 0.0), minlength=len(materials))
     return dict(zip(materials.names, sums.tolist(), strict=True))
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.kernels import elements
 from hexmend.mesh.fields import as_set
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.mesh.validation import as_bools, as_points_and_hexes
 from hexmend.quality.validity import Validity, certify
 from hexmend.quantity import format_quality
@@ -149,12 +149,18 @@ def measure(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
 
 
 def fixed_tetrahedra(hexes: np.ndarray, fixed: np.ndarray) -> np.ndarray:
-    """Find the corner tetrahedra of hexes (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool."""
-    stays, all_stay = fixed[hexes], np.empty((len(hexes), 8), dtype=bool)
-    for corner, (apex, *ends) in enumerate(CORNER_TETRAHEDRA):
-        np.copyto(all_stay[:, corner], stays[:, apex])
-        for end in ends:
-            all_stay[:, corner] &= stays[:, end]
+    """Find the corner tetrahedra of cells (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool.
+
+    Corners that a cell does not have are not among them.
+    """
+    all_stay = np.empty((len(hexes), 8), dtype=bool)
+    for kind, rows in rows_by_kind(hexes):
+        stays, of_kind = fixed[hexes[rows]], np.zeros((len(all_stay[rows]), 8), dtype=bool)
+        for corner, (apex, *ends) in enumerate(kind.corners):
+            np.copyto(of_kind[:, corner], stays[:, apex])
+            for end in ends:
+                of_kind[:, corner] &= stays[:, end]
+        all_stay[rows] = of_kind
     return all_stay
 
 

@@ -91,7 +91,7 @@ def find_metric(name: str) -> Metric:
 
 def measure_mesh(mesh: Mesh) -> ElementQuality:
     """Measure the quality of every hex; the mesh remembers the number of invalid hexes for its representation."""
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
     mesh._set(_invalid=quality.n_invalid)
     return quality
 
@@ -167,8 +167,8 @@ def measure_against_target(mesh: Mesh, points: np.ndarray, quality: ElementQuali
     target = mesh.element_target
     if target is None:
         return quality
-    q, eta = np.empty((2, mesh.n_hexes))
-    elements.measure_against(points, mesh.hexes, target.matrices, q, eta)
+    q, eta = np.empty((2, mesh.n_elements))
+    elements.measure_against(points, mesh.elements, target.matrices, q, eta)
     return replace(quality, q=q, eta=eta, against_target=True)
 
 
@@ -192,4 +192,4 @@ def target_quality(mesh: Mesh) -> np.ndarray:
     >>> target_quality(cube.with_element_target(Target([[1.0, 1.0, 8.0]] * 8))).round(3).tolist()[0]
     0.372
     """
-    return measure_against_target(mesh, mesh.points, measure(mesh.points, mesh.hexes)).q
+    return measure_against_target(mesh, mesh.points, measure(mesh.points, mesh.elements)).q

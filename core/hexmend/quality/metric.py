@@ -75,7 +75,7 @@ class Metric(HexQuantity):
         """Compute the values of the hexes of a mesh, (m,) float64, from the mesh and its measured quality."""
         if self.of_mesh is not None:
             return self.of_mesh(mesh, quality)
-        return self.of(mesh.points, mesh.hexes, quality)
+        return self.of(mesh.points, mesh.elements, quality)
 
     def register(self) -> Metric:
         """Add the metric to `METRICS` under its name and return it; raises `ValueError` if the name is taken."""

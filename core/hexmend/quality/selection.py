@@ -11,6 +11,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set, set_names, unknown_set
+from hexmend.mesh.solid_cells import centres, solid_blocks
 from hexmend.mesh.validation import as_reals
 from hexmend.quality.mesh_quality import measure_mesh
 
@@ -36,11 +37,22 @@ def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     MeshError
         If the mesh has no such set.
     """
-    if name in mesh.hex_sets:
-        return np.asarray(mesh.hex_sets[name])
+    members = _members(mesh, name)
+    if members is not None:
+        return members
     if name in _BY_QUALITY:
         return np.flatnonzero(getattr(measure_mesh(mesh), name))
     raise unknown_set(name, [*mesh.hex_sets, *_BY_QUALITY], "element set")
+
+
+def _members(mesh: Mesh, name: str) -> np.ndarray | None:
+    """Return the numbers of the solid cells of an element set, (k,) int; None if there is no such set."""
+    found, first = [np.asarray(mesh.hex_sets[name])] if name in mesh.hex_sets else [], mesh.n_hexes
+    for cells in solid_blocks(mesh.cells):
+        if name in cells.sets:
+            found.append(first + np.asarray(cells.sets[name]))
+        first += len(cells.nodes)
+    return np.concatenate(found) if found else None
 
 
 def region(
@@ -89,15 +101,15 @@ def region(
     >>> region(mesh, hexes=[0], rings=1).size
     8
     """
-    marks = np.zeros(mesh.n_hexes, dtype=bool) if names else np.ones(mesh.n_hexes, dtype=bool)
+    marks = np.zeros(mesh.n_elements, dtype=bool) if names else np.ones(mesh.n_elements, dtype=bool)
     for name in names:
         marks[_hexes_of(mesh, name)] = True
     if hexes is not None:
-        marks &= mask(as_numbers(hexes, "hexes", mesh.n_hexes), mesh.n_hexes)
+        marks &= mask(as_numbers(hexes, "hexes", mesh.n_elements), mesh.n_elements)
     if box is not None:
         low, high = _box(box)
-        centres = mesh.points[mesh.hexes].mean(axis=1)
-        marks &= ((centres >= low) & (centres <= high)).all(axis=1)
+        middles = centres(mesh.points, mesh.elements)
+        marks &= ((middles >= low) & (middles <= high)).all(axis=1)
     found = np.flatnonzero(marks)
     return np.flatnonzero(mesh.topology.hexes_around(found, rings))
 
@@ -105,7 +117,7 @@ def region(
 def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:
     """Return the hexes of a name of `region`."""
     materials = mesh.materials
-    if name in mesh.hex_sets or name in _BY_QUALITY:
+    if _members(mesh, name) is not None or name in _BY_QUALITY:
         return hexes_in_set(mesh, name)
     if materials is not None and name in materials.names:
         return np.flatnonzero(materials.of_hex == materials.names.index(name))
@@ -114,7 +126,7 @@ def _hexes_of(mesh: Mesh, name: str) -> np.ndarray:
     known = [*dict.fromkeys([*set_names(mesh), *(materials.names if materials is not None else ())]), *_BY_QUALITY]
     if name not in known:
         raise unknown_set(name, known, "set or material")
-    return np.flatnonzero(mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.hexes].any(axis=1))
+    return np.flatnonzero(mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.elements].any(axis=1))
 
 
 def _box(box: Sequence[Sequence[float]] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -8,11 +8,13 @@ Statistics of every metric over a mesh.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.quality.measure import ElementQuality, locked_hexes, measure
 from hexmend.quality.metric import METRICS, Metric
 from hexmend.quality.validity import Validity, certify, least_jacobian
@@ -41,7 +43,7 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
     >>> summarise(Mesh(UNIT_CUBE, [range(8)])).q_norm
     1.0
     """
-    quality = quality or measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    quality = quality or measure(mesh.points, mesh.elements, mesh.mid_nodes)
     mesh._set(_invalid=quality.n_invalid)  # for its representation
     q = quality.q
     return Summary(
@@ -49,9 +51,9 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
         nodes=int(np.count_nonzero(mesh.topology.used)),
         free_nodes=int(np.count_nonzero(mesh.free)),
         inverted=quality.n_inverted,
-        locked_inverted=int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))),
+        locked_inverted=int(np.count_nonzero(locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted))),
         invalid=quality.n_invalid,
-        min_jacobian=least_jacobian(mesh.points, mesh.hexes, mesh.mid_nodes),
+        min_jacobian=least_jacobian(mesh.points, mesh.elements, mesh.mid_nodes),
         q_min=float(q.min()),
         q_mean=float(q.mean()),
         q_max=float(q.max()),
@@ -59,7 +61,25 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
         q_norm=float(1 / np.sqrt(np.mean(1 / np.square(q)))) if q.min() > 0 else 0.0,
         scaled_jacobian_min=float(quality.scaled_jacobian.min()),
         objective=objective(quality),
+        cells=dict(_by_kind(mesh, quality)),
     )
+
+
+def _by_kind(mesh: Mesh, quality: ElementQuality) -> Iterator[tuple[str, dict[str, float | int]]]:
+    """Yield the name of each kind of cells that the mesh has, and the figures of its cells."""
+    for kind, rows in rows_by_kind(mesh.elements):
+        q, jacobian = quality.q[rows], quality.scaled_jacobian[rows]
+        yield (
+            kind.name,
+            {
+                "count": len(q),
+                "inverted": int(np.count_nonzero(quality.inverted[rows])),
+                "invalid": int(np.count_nonzero(quality.invalid[rows])),
+                "q_min": float(q.min()),
+                "q_mean": float(q.mean()),
+                "scaled_jacobian_min": float(jacobian.min()),
+            },
+        )
 
 
 def objective(quality: ElementQuality, p: float = 2.0, offset: float = 1.0) -> float | None:
@@ -185,5 +205,5 @@ def metric_statistics(mesh: Mesh, quality: ElementQuality | None = None) -> dict
     >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
     MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes) if quality is None else quality
     return {name: MetricStatistics.over(metric, metric.values(mesh, quality)) for name, metric in METRICS.items()}

@@ -45,8 +45,8 @@ def certify(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray | None 
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
-    mid_nodes : (m, 19) int32, optional
-        As `Mesh.mid_nodes`: hexes that have some are judged by the map of the second order.
+    mid_nodes : (at most m, 19) int32, optional
+        As `Mesh.mid_nodes`, of the first cells: hexes that have some are judged by the map of the second order.
 
     Returns
     -------
@@ -109,7 +109,9 @@ def least_jacobian(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray 
     points, hexes = as_points_and_hexes(points, hexes)
     if mid_nodes is None:
         return kernels.least_jacobian(points, hexes)
-    linear = np.ascontiguousarray(hexes[(mid_nodes < 0).all(axis=1)])
+    is_linear = np.ones(len(hexes), dtype=bool)
+    is_linear[: len(mid_nodes)] = (mid_nodes < 0).all(axis=1)
+    linear = np.ascontiguousarray(hexes[is_linear])
     curved = (kernels.least_jacobian_quadratic(nodes) for _, nodes in _second_order(points, hexes, mid_nodes))
     return min((kernels.least_jacobian(points, linear), *curved))
 

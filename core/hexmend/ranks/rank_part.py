@@ -59,10 +59,11 @@ class RankPart:
 def divide(mesh: Mesh, count: int) -> np.ndarray:
     """Divide hexes among ranks so that few faces lie between them; returns the rank of each, (m,) int32."""
     if count == 1:
-        return np.zeros(mesh.n_hexes, np.int32)
+        return np.zeros(mesh.n_elements, np.int32)
     neighbours = mesh.topology.face_neighbours
-    start = np.concatenate([[0], np.cumsum((neighbours >= 0).sum(axis=1))]).astype(np.int32)
-    _, ranks = pymetis.part_graph(count, adjacency=pymetis.CSRAdjacency(start, neighbours[neighbours >= 0]))
+    others = (neighbours >= 0) & (neighbours != np.arange(len(neighbours))[:, None])
+    start = np.concatenate([[0], np.cumsum(others.sum(axis=1))]).astype(np.int32)
+    _, ranks = pymetis.part_graph(count, adjacency=pymetis.CSRAdjacency(start, neighbours[others]))
     return np.asarray(ranks, dtype=np.int32)
 
 
@@ -70,7 +71,7 @@ def owners_of_nodes(mesh: Mesh, rank_of_hex: np.ndarray) -> np.ndarray:
     """Return the rank that owns each node, (n,) int32: the lowest rank of its hexes (m,), or 0 without hexes."""
     owner = np.zeros(mesh.n_nodes, np.int32)
     for rank in range(int(rank_of_hex.max(initial=0)), -1, -1):
-        owner[mesh.hexes[rank_of_hex == rank].ravel()] = rank
+        owner[mesh.elements[rank_of_hex == rank].ravel()] = rank
     return owner
 
 
@@ -81,12 +82,12 @@ def arrays_of_parts(mesh: Mesh, owner: np.ndarray, count: int) -> Iterator[dict[
         of = owner[nodes]
         rows: dict[str, np.ndarray | float] = {
             "points": mesh.points[nodes],
-            "hexes": index_of(nodes, mesh.n_nodes)[mesh.hexes[hexes]],
+            "hexes": index_of(nodes, mesh.n_nodes)[mesh.elements[hexes]],
             "nodes": nodes,
             "fixed": mesh.fixed[nodes],
             "owned": of == rank,
-            "counted": owner[mesh.hexes[hexes, 0]] == rank,
-            "sizes": np.array([mesh.mean_edge_length, mesh.n_hexes]),
+            "counted": owner[mesh.elements[hexes, 0]] == rank,
+            "sizes": np.array([mesh.mean_edge_length, mesh.n_elements]),
         }
         for other, (_, theirs) in enumerate(lists):
             if other == rank:
@@ -102,8 +103,8 @@ def arrays_of_parts(mesh: Mesh, owner: np.ndarray, count: int) -> Iterator[dict[
 
 def _nodes_of(mesh: Mesh, owned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the hexes at some nodes (n,) bool, and all nodes of these hexes."""
-    hexes = np.flatnonzero(any_of_rows(owned, mesh.hexes))
-    return hexes, np.flatnonzero(mask(mesh.hexes[hexes], mesh.n_nodes)).astype(np.int32)
+    hexes = np.flatnonzero(any_of_rows(owned, mesh.elements))
+    return hexes, np.flatnonzero(mask(mesh.elements[hexes], mesh.n_nodes)).astype(np.int32)
 
 
 def make_part(comm: MPI.Comm, rows: dict[str, np.ndarray]) -> RankPart:
@@ -127,9 +128,9 @@ def distribute(comm: MPI.Comm, mesh: Mesh | None) -> RankPart:
     if mesh is None:
         return make_part(comm, _receive(comm))
     owner, own = owners_of_nodes(mesh, divide(mesh, comm.size)), None
-    idle = comm.size - np.unique(owner[mesh.hexes]).size
+    idle = comm.size - np.unique(owner[mesh.elements]).size
     if idle:
-        raise ParameterError(too_many_ranks(comm.size, mesh.n_hexes, idle))
+        raise ParameterError(too_many_ranks(comm.size, mesh.n_elements, idle))
     for rank, rows in enumerate(arrays_of_parts(mesh, owner, comm.size)):
         if rank == 0:
             own = rows

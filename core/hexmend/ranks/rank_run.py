@@ -75,7 +75,7 @@ class RankRun(Iterator[RankFigures]):
         self._steps = self._stages.steps(mesh)
         next(self._steps)
         self.points = self.best_points = mesh.points
-        quality = measure(mesh.points, mesh.hexes)
+        quality = measure(mesh.points, mesh.elements)
         self.last, self._start = RankFigures.of(self._energy, quality), self._judged(quality)
         self._best_rank = self._rank(self._start)
         moving = self._energy.nodes if self.sliding is None else self.sliding.nodes
@@ -122,7 +122,7 @@ class RankRun(Iterator[RankFigures]):
             self._end(Outcome.NOT_FINITE)
             return
         self.points = points
-        quality = step.quality if step.quality is not None else measure(points, energy.mesh.hexes)
+        quality = step.quality if step.quality is not None else measure(points, energy.mesh.elements)
         self.last = RankFigures.of(energy, quality)
         if step.decision:
             self.decisions.append(step.decision)

@@ -73,23 +73,23 @@ class RankStages(Stages):
         self.unsound = self._is_unsound(energy, shape.points)
         if self.unsound:
             return Outcome.NO_IMPROVEMENT
-        starts, first = [given, shape.points], measure(given, mesh.hexes)
+        starts, first = [given, shape.points], measure(given, mesh.elements)
         mean = -np.inf if self._part.ranks.any(first.inverted) else energy.mean(first.q)
         if sliding is not None:
             if balances:
                 fixed = yield from reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
-                given, kept = fixed.points, measure(fixed.points, mesh.hexes)
+                given, kept = fixed.points, measure(fixed.points, mesh.elements)
             norm = self.settings.norm_on(sliding.mesh)
             energy = MeshEnergy(sliding.mesh, norm, motion=sliding.motion)
             steps = self._shape(sliding.with_points(shape.points), energy, True)
-            shape = yield from keeping(kept, mesh.hexes, steps, self._is_lower)
+            shape = yield from keeping(kept, mesh.elements, steps, self._is_lower)
             starts = [given, shape.points]
             self.unsound = self._is_unsound(energy, shape.points)
         if not balances or self.unsound:
             self.unsound = self.unsound or self._is_invalid_inside(shape.points)
             return shape.outcome
         goal = reach_goal(self.settings, self._sound(energy, shape.points), starts, given, mean)
-        reached = yield from keeping(kept, mesh.hexes, goal, self._is_lower)
+        reached = yield from keeping(kept, mesh.elements, goal, self._is_lower)
         yield Step(reached.points, decision=reached.message, intermediate=True)
         self.unsound = self._is_invalid_inside(reached.points)
         return Outcome.NO_IMPROVEMENT
@@ -104,7 +104,7 @@ class RankStages(Stages):
 
     def _is_invalid_inside(self, points: np.ndarray) -> bool:
         """Return True on all ranks if a hex is invalid between positive corners: one process alone makes it valid."""
-        quality = measure(points, self._part.mesh.hexes)
+        quality = measure(points, self._part.mesh.elements)
         return self._part.ranks.any(quality.invalid & ~quality.inverted)
 
     def _is_lower(self, now: ElementQuality, kept: ElementQuality) -> bool:

@@ -94,7 +94,7 @@ def shortage(method: Smoother | Recipe, mesh: Mesh | int, free: int | None) -> S
     others = [(cls, needed(cls(), mesh)) for cls in METHODS.values()]
     fitting = [(cls, size) for cls, size in others if size <= free]
     lighter = sorted(fitting, key=lambda one: (one[0].optimises != optimises, one[1]))[:_MAX_NAMED]
-    return Shortage(method.title, mesh if isinstance(mesh, int) else mesh.n_hexes, need, free, tuple(lighter))
+    return Shortage(method.title, mesh if isinstance(mesh, int) else mesh.n_elements, need, free, tuple(lighter))
 
 
 def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
@@ -116,8 +116,8 @@ def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
     if isinstance(mesh, int):
         hexes, fixed, extra_nodes, faces = mesh, 0, 0, 6 * mesh ** (2 / 3)
     else:
-        hexes, extra_nodes = mesh.n_hexes, max(0, mesh.n_nodes - mesh.n_hexes)
-        fixed = 0 if mesh.pinned is None else int(mesh.pinned[mesh.hexes].all(axis=1).sum())
+        hexes, extra_nodes = mesh.n_elements, max(0, mesh.n_nodes - mesh.n_elements)
+        fixed = 0 if mesh.pinned is None else int(mesh.pinned[mesh.elements].all(axis=1).sum())
         faces = len(mesh.topology.boundary_faces) if method.slides else 0
     moved = method.bytes_per_hex * (hexes - fixed) + AT_REST * (fixed + extra_nodes)
     return FIXED + moved + (round(A_FACE * faces) if method.slides else 0)

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import nouns
 from hexmend.parameters import declared
 from hexmend.quality import ElementQuality, locked_hexes
-from hexmend.quality.file_ids import hex_ids, with_ids
+from hexmend.quality.file_ids import name_cells
 from hexmend.run.recipe import Stage
 from hexmend.terminal_text import count_phrase
 
@@ -37,19 +38,19 @@ def describe_change(old: Stage, new: Stage) -> str:
     return ", ".join([f"{new.smoother.title}{named} takes over from {old.smoother.title}", *limits])
 
 
-def invalid_phrase(inverted: int, invalid: int) -> str:
+def invalid_phrase(inverted: int, invalid: int, words: tuple[str, str] = ("hex", "hexes")) -> str:
     """Say how many hexes of a result are inverted, and how many more are invalid between their corners.
 
     >>> invalid_phrase(0, 0), invalid_phrase(2, 3), invalid_phrase(0, 1)
     ('no hex is invalid', '2 hexes still inverted and 1 invalid inside', '1 hex still invalid inside')
     """
     if not invalid:
-        return "no hex is invalid"
+        return f"no {words[0]} is invalid"
     between = invalid - inverted
     if not inverted:
-        return f"{count_phrase(between, 'hex', 'hexes')} still invalid inside"
+        return f"{count_phrase(between, *words)} still invalid inside"
     more = f" and {between:,} invalid inside" if between else ""
-    return f"{count_phrase(inverted, 'hex', 'hexes')} still inverted{more}"
+    return f"{count_phrase(inverted, *words)} still inverted{more}"
 
 
 def name_invalid(mesh: Mesh, quality: ElementQuality) -> str:
@@ -58,18 +59,19 @@ def name_invalid(mesh: Mesh, quality: ElementQuality) -> str:
     >>> from hexmend.gallery import make
     >>> from hexmend.quality import measure
     >>> mesh = make("cube", size=8)
-    >>> name_invalid(mesh, measure(mesh.points, mesh.hexes))
+    >>> name_invalid(mesh, measure(mesh.points, mesh.elements))
     ''
     """
     hexes = np.flatnonzero(quality.invalid)
     if not hexes.size:
         return ""
     more = f" and {hexes.size - _NAMED:,} more" if hexes.size > _NAMED else ""
-    locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)))
-    reason = f"fixed nodes keep {count_phrase(locked, 'hex', 'hexes')} inverted" if locked else ""
+    locked = int(np.count_nonzero(locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)))
+    words = nouns(mesh.elements)
+    reason = f"fixed nodes keep {count_phrase(locked, *words)} inverted" if locked else ""
     if locked < hexes.size:
         reason = f"{reason}, and no valid positions were found for the others" if locked else "no valid positions found"
-    return f"Invalid hexes: {with_ids(hexes[:_NAMED].tolist(), hex_ids(mesh))}{more}; {reason}."
+    return f"Invalid {words[1]}: {name_cells(mesh, hexes[:_NAMED].tolist())}{more}; {reason}."
 
 
 def kept_message(number: int) -> str:

@@ -14,6 +14,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
+from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
@@ -72,7 +73,7 @@ class Run(Iterator[Iteration]):
             mesh = with_more_rules(mesh, MotionRules(periodic=mesh.periodic_pairs))
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
-        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+        quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
         if quality.n_inverted:
             check_orientation(mesh)
         self._shapes = ShapeWatch(mesh, quality)
@@ -209,7 +210,7 @@ class Run(Iterator[Iteration]):
     ) -> str:
         at, inverted, invalid = self.last, self.best.quality.n_inverted, self.best.quality.n_invalid
         text = self.outcome.value if self.outcome is not None else "Running."
-        left = invalid_phrase(inverted, invalid)
+        left = invalid_phrase(inverted, invalid, nouns(self.mesh.elements))
         cut_short = self.outcome is None or self.outcome.is_cut_short  # else the last step may be back to the result
         longest = at.largest_move if at.number and cut_short else 0.0
         move = f"the last one moved nodes by up to {longest:.2g} mean edge lengths; " if longest else ""

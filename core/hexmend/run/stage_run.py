@@ -13,7 +13,6 @@ from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.kernels import release_free_memory, return_freed_arrays
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.validation import points_like
 from hexmend.quality import ElementQuality, measure, measure_against_target
 from hexmend.run.recipe import Stage
@@ -90,7 +89,7 @@ class StageRun:
         self.active: ActiveSet | None = None
         self.target = mesh.element_target
         self._mesh, self._unit = mesh, mesh.mean_edge_length or 1.0
-        self._is_large = mesh.n_hexes >= _LARGE
+        self._is_large = mesh.n_elements >= _LARGE
         if self._is_large:
             return_freed_arrays()
             release_free_memory()
@@ -147,8 +146,8 @@ class StageRun:
             return None
         quality = step.quality
         if quality is None or self._mesh.mid_nodes is not None:  # methods measure the corners alone
-            quality = measure(points, self._mesh.hexes, self._mesh.mid_nodes)
-        quality.made_from(points, self._mesh.hexes, self._mesh.mid_nodes)
+            quality = measure(points, self._mesh.elements, self._mesh.mid_nodes)
+        quality.made_from(points, self._mesh.elements, self._mesh.mid_nodes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
         judged = measure_against_target(self._mesh, points, quality)
         number, norm = self.last.number + 1, step.norm or self.smoother.norm
@@ -172,9 +171,9 @@ class StageRun:
     def _moved(self, points: np.ndarray) -> np.ndarray:
         """Return points (n, 3) of a step, which moves corners, with the mid-nodes moved with the corners; immutable."""
         mesh = self._mesh
-        if mesh.mid_nodes is not None:
+        if mesh.has_mid_nodes:
             with np.errstate(invalid="ignore"):  # points that are not finite end the run
-                points = move_mid_nodes(mesh.points, points, mesh.hexes, mesh.mid_nodes)
+                points = mesh.with_mid_nodes_moved(points)
         return as_immutable(points)
 
     def _sizes_of_moves(self, before: np.ndarray, after: np.ndarray) -> tuple[float, float]:
@@ -238,7 +237,7 @@ class StageRun:
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
         rank = self.smoother.rank(self._origin_quality, self._judged_quality(iteration))
-        return *rank, *self.smoother.rank_by_points(self._mesh.hexes, iteration.points)
+        return *rank, *self.smoother.rank_by_points(self._mesh.elements, iteration.points)
 
     def _judged_quality(self, iteration: Iteration) -> ElementQuality:
         """Quality of an iteration against the target of this stage; earlier stages may have had another one."""

@@ -64,7 +64,7 @@ def _steps_in_turns(smoother: Smoother, mesh: Mesh, linear: np.ndarray, sweep: S
 def _projected_steps(smoother: Smoother, mesh: Mesh) -> Steps:
     """Move all nodes by the admissible part of their steps."""
     points = mesh.constrained(mesh.points)
-    quality, idle = measure(points, mesh.hexes), 0
+    quality, idle = measure(points, mesh.elements), 0
     best = _merit(quality)
     yield Step(points)
     while idle < PATIENCE:
@@ -105,12 +105,12 @@ def _without_inversions(
     moves, root = admissible_displacements(motion, moves), motion.roots(mesh.n_nodes)
     for halving in range(HALVINGS + 2):
         moved = mesh.constrained(points + moves)
-        after = measure(moved, mesh.hexes)
+        after = measure(moved, mesh.elements)
         harmed = after.inverted & ~quality.inverted
         if not harmed.any():
             return moved, after
         near = np.zeros(mesh.n_nodes, dtype=bool)
-        near[root[mesh.hexes[harmed]]] = True
+        near[root[mesh.elements[harmed]]] = True
         moves[near[root]] *= 0.5 if halving < HALVINGS else 0.0
     return points, quality
 

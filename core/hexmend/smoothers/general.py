@@ -11,8 +11,8 @@ import numpy as np
 
 from hexmend.arrays import largest_norm
 from hexmend.iteration import Outcome, Step
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.parameters import parameter
 from hexmend.quality import measure, measure_against_target
 from hexmend.smoothers.base import METHODS, Steps, method
@@ -57,10 +57,10 @@ class General(TargetedSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         mesh = mesh.keeping_surface()
         points = yield from self._getme(mesh)
-        quality = measure_against_target(mesh, points, measure(points, mesh.hexes))
+        quality = measure_against_target(mesh, points, measure(points, mesh.elements))
         if not quality.n_inverted and quality.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
-        ratio = edge_length_ratio(points, mesh.hexes)
+        ratio = edge_length_ratio(points, mesh.elements)
         similar, count = ratio <= self.max_size_ratio, quality.n_inverted
         inverted = count_phrase(count, "inverted hex", "inverted hexes") if count else "no inverted hexes"
         chosen = METHODS["global-nr" if similar and not count else "local-sd"]
@@ -95,7 +95,9 @@ class General(TargetedSmoother):
 def edge_length_ratio(points: np.ndarray, hexes: np.ndarray) -> float:
     """Ratio of the 95th to the 5th percentile of the hexes' mean edge lengths; inf if some have no extent."""
     total = np.zeros(len(hexes))
-    for a, b in EDGES:
-        total += np.linalg.norm(points[hexes[:, a]] - points[hexes[:, b]], axis=1)
+    for kind, rows in rows_by_kind(hexes):
+        for a, b in kind.edges:
+            total[rows] += np.linalg.norm(points[hexes[rows, a]] - points[hexes[rows, b]], axis=1)
+        total[rows] /= len(kind.edges)
     low, high = np.percentile(total, [5, 95])
     return float(high / low) if low > 0 else np.inf

@@ -54,7 +54,7 @@ def worst_first(mesh: Mesh) -> Sequence:
 
     def sequence(points: np.ndarray, sweep: int) -> np.ndarray:
         least = np.empty(mesh.n_nodes)
-        least[mesh.topology.used] = np.minimum.reduceat(measure(points, mesh.hexes).q[corners.items // 8], start)
+        least[mesh.topology.used] = np.minimum.reduceat(measure(points, mesh.elements).q[corners.items // 8], start)
         return nodes[np.argsort(least[nodes], kind="stable")]
 
     return sequence

@@ -12,8 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import HEXAHEDRON, SolidKind, rows_by_kind
 from hexmend.quality.finite_volume import CellGeometry, FaceQuality, cell_geometry, face_quality
 from hexmend.quality.finite_volume.geometry import chunks, cross, divide, dot, in_unit, norm
 from hexmend.quality.measure import ElementQuality, measure
@@ -49,7 +49,7 @@ class QuadShapes:
 
 
 def quad_shapes(points: np.ndarray, hexes: np.ndarray) -> QuadShapes:
-    """Compute the worst shapes of the quads of each hex.
+    """Compute the worst shapes of the quads of each hex; of other cells those of their faces that are quads.
 
     Parameters
     ----------
@@ -62,20 +62,30 @@ def quad_shapes(points: np.ndarray, hexes: np.ndarray) -> QuadShapes:
     """
     x, _ = in_unit(points, hexes)
     values = np.empty((5, len(hexes)))
-    for part in chunks(len(hexes)):
-        corners = x[:, hexes[part].T]
-        faces = corners[:, FACES]
-        sections = (corners[:, _ENDS[:, 0]] + corners[:, _ENDS[:, 1]]) / 2
-        quads = np.concatenate([faces, sections], axis=1)  # (3, 9, 4, k)
+    for kind, rows in rows_by_kind(hexes):
+        values[:, rows] = _shapes_of_kind(x, hexes[rows], kind)
+    return QuadShapes(*values)
+
+
+def _shapes_of_kind(x: np.ndarray, cells: np.ndarray, kind: SolidKind) -> np.ndarray:
+    """The fields of `QuadShapes` of cells (k, 8) of one kind at points (3, n), (5, k); tetrahedra have no quads."""
+    values = np.tile([[1.0], [0.0], [90.0], [0.0], [1.0]], len(cells))
+    is_quad = (kind.faces[:, 0] >= 0) & (kind.faces[:, 2] != kind.faces[:, 3])
+    for part in chunks(len(cells) if is_quad.any() else 0):
+        corners = x[:, cells[part].T]
+        quads = faces = corners[:, kind.faces[is_quad]]
+        if kind is HEXAHEDRON:
+            sections = (corners[:, _ENDS[:, 0]] + corners[:, _ENDS[:, 1]]) / 2
+            quads = np.concatenate([faces, sections], axis=1)  # (3, 9, 4, k)
         edges = np.roll(quads, -1, axis=2) - quads
         values[:, part] = [
             _aspect_ratios(quads).max(axis=0),
             _parallel_deviations(edges).max(axis=0),
             _angles(edges, -np.roll(edges, 1, axis=2)).max(axis=(0, 1)),
             _warping_factors(faces).max(axis=0),
-            _corner_cosines(edges[:, :6]).min(axis=0),
+            _corner_cosines(edges[:, : faces.shape[1]]).min(axis=0),
         ]
-    return QuadShapes(*values)
+    return values
 
 
 def _aspect_ratios(quads: np.ndarray) -> np.ndarray:
@@ -133,22 +143,22 @@ class Measures:
 
     def __init__(self, mesh: Mesh, quality: ElementQuality | None = None):
         self.mesh = mesh
-        self.quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
+        self.quality = measure(mesh.points, mesh.elements, mesh.mid_nodes) if quality is None else quality
 
     @cached_property
     def cells(self) -> CellGeometry:
         """Centres, areas and volumes of faces and hexes."""
-        return cell_geometry(self.mesh.points, self.mesh.hexes)
+        return cell_geometry(self.mesh.points, self.mesh.elements)
 
     @cached_property
     def faces(self) -> FaceQuality:
         """Quality of every face."""
-        return face_quality(self.cells, self.mesh.hexes, self.mesh.topology.face_neighbours)
+        return face_quality(self.cells, self.mesh.elements, self.mesh.topology.face_neighbours)
 
     @cached_property
     def quads(self) -> QuadShapes:
         """Shapes of the faces and cross-sections of the hexes."""
-        return quad_shapes(self.mesh.points, self.mesh.hexes)
+        return quad_shapes(self.mesh.points, self.mesh.elements)
 
     @cached_property
     def characteristic_lengths(self) -> np.ndarray:
@@ -174,9 +184,10 @@ class Measures:
     @cached_property
     def second_order(self) -> np.ndarray:
         """True for hexes with mid-nodes, (m,) bool."""
-        if self.mesh.mid_nodes is None:
-            return np.zeros(self.mesh.n_hexes, dtype=bool)
-        return (self.mesh.mid_nodes >= 0).any(axis=1)
+        marks = np.zeros(self.mesh.n_elements, dtype=bool)
+        if self.mesh.mid_nodes is not None:
+            marks[: self.mesh.n_hexes] = (self.mesh.mid_nodes >= 0).any(axis=1)
+        return marks
 
     def metric(self, name: str) -> np.ndarray:
         """Values of a metric of `METRICS`, (m,) float64."""

@@ -29,10 +29,10 @@ def time_steps(measures: Measures) -> np.ndarray:
 def jacobian_ratios(measures: Measures) -> np.ndarray:
     """ANSYS's Jacobian ratio, (m,) float64; +inf where the least determinant is not positive."""
     mesh = measures.mesh
-    sigma = corner_determinants(mesh.points, mesh.hexes)
+    sigma = corner_determinants(mesh.points, mesh.elements)
     least, greatest = sigma.min(axis=1), sigma.max(axis=1)
     if mesh.mid_nodes is not None:
-        of_nodes = jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes, gauss=False)
+        of_nodes = jacobian_range(mesh.points, mesh.elements, mesh.mid_nodes, gauss=False)
         known = ~np.isnan(of_nodes[:, 0])
         least, greatest = np.where(known, of_nodes[:, 0], least), np.where(known, of_nodes[:, 1], greatest)
     return np.where(least > 0, divide(greatest, least, np.inf), np.inf)
@@ -41,7 +41,7 @@ def jacobian_ratios(measures: Measures) -> np.ndarray:
 def gauss_determinants(measures: Measures) -> np.ndarray:
     """Least Jacobian determinant at the Gauss points, (m,) float64, in mesh unit³.
 
-    These are 2 x 2 x 2 points of a hex of eight nodes, 3 x 3 x 3 of one of second order.
+    These are 2 x 2 x 2 points of a hex of eight nodes, 3 x 3 x 3 of one of second order; corners of other cells.
     """
     mesh, cells = measures.mesh, measures.cells
     least = np.full(mesh.n_hexes, np.inf)
@@ -55,7 +55,7 @@ def gauss_determinants(measures: Measures) -> np.ndarray:
     if mesh.mid_nodes is not None:
         of_second = jacobian_range(mesh.points, mesh.hexes, mesh.mid_nodes, nodes=False)[:, 0]
         least = np.where(np.isnan(of_second), least, of_second)
-    return least
+    return np.append(least, measures.quality.sigma[mesh.n_hexes :])
 
 
 def _gradients(place: np.ndarray) -> np.ndarray:

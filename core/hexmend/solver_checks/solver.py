@@ -22,7 +22,7 @@ from hexmend.terminal_text import count_phrase
 def _certified_ratios(measures: Measures) -> np.ndarray:
     """Certified lower bound of the least det J of each hex over the greatest, (m,); above 0 just where it is valid."""
     mesh = measures.mesh
-    bounds = jacobian_bounds(mesh.points, mesh.hexes, mesh.mid_nodes)
+    bounds = jacobian_bounds(mesh.points, mesh.elements, mesh.mid_nodes)
     scale = np.abs(bounds).max(axis=1)
     ratios = np.divide(bounds[:, 0], scale, out=np.zeros(len(bounds)), where=(scale > 0) & np.isfinite(scale))
     smallest = np.finfo(np.float64).tiny

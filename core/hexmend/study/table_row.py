@@ -138,7 +138,7 @@ def objective_of(mesh: Mesh, summary: Summary, norm: ObjectiveNorm) -> float | N
     -------
     float or None
     """
-    return summary.objective if norm == SQUARES else objective(measure(mesh.points, mesh.hexes), *norm)
+    return summary.objective if norm == SQUARES else objective(measure(mesh.points, mesh.elements), *norm)
 
 
 def initial_record(mesh: Mesh, summary: Summary, norm: ObjectiveNorm = SQUARES) -> dict[str, Any]:
@@ -206,5 +206,5 @@ def _row(name: str, result: Result, mesh: Mesh) -> Row:
 
 def distribution(mesh: Mesh) -> list[int]:
     """Count the hexes of a mesh in `BINS` bins of q(H), from 0 to 1."""
-    q = measure(mesh.points, mesh.hexes).q
+    q = measure(mesh.points, mesh.elements).q
     return np.histogram(q, BINS, (0.0, 1.0))[0].tolist()

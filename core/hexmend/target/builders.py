@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import centres
 from hexmend.quality import ElementQuality
 from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.formula import evaluate
@@ -86,8 +87,8 @@ def _field(mesh: Mesh, text: str) -> np.ndarray:
             raise ParameterError(message) from None
     if len(columns) not in (1, 3):
         raise ParameterError(f"target {text!r} has {len(columns)} values a hex: expected one length, or three")
-    lengths = np.empty((mesh.n_hexes, 3))
-    lengths.T[:] = [np.broadcast_to(column, mesh.n_hexes) for column in columns]
+    lengths = np.empty((mesh.n_elements, 3))
+    lengths.T[:] = [np.broadcast_to(column, mesh.n_elements) for column in columns]
     unit = float(np.median(given_lengths(mesh)))
     least, greatest = unit / MAX_RATIO, unit * MAX_RATIO
     wrong = np.argwhere(~((lengths >= least) & (lengths <= greatest)))
@@ -104,7 +105,9 @@ def _field(mesh: Mesh, text: str) -> np.ndarray:
 def _data(mesh: Mesh, name: str) -> np.ndarray:
     """Values of hex data, or of node data at the centres of hexes, (m,) or (m, k) float64."""
     values = mesh.hex_data.get(name)
-    values = np.asarray(mesh.node_data[name])[mesh.hexes].mean(axis=1) if values is None else np.asarray(values)
+    if values is None:
+        values = centres(np.asarray(mesh.node_data[name]), mesh.elements)
+    values = np.asarray(values)
     if values.dtype.kind not in "iufb" or values.ndim > 2:
         raise ParameterError(f"data {name!r} are not lengths: expected one number, or three, for each hex or node")
     return values.astype(np.float64)
@@ -112,8 +115,7 @@ def _data(mesh: Mesh, name: str) -> np.ndarray:
 
 def _names(mesh: Mesh) -> dict[str, np.ndarray]:
     """Values that formulas can use: coordinates of the centres, and data with one number a hex or node."""
-    centres = mesh.points[mesh.hexes].mean(axis=1)
-    names = dict(zip("xyz", centres.T, strict=True))
+    names = dict(zip("xyz", centres(mesh.points, mesh.elements).T, strict=True))
     for data in (mesh.node_data, mesh.hex_data):
         for name, values in data.items():
             if name.isidentifier() and name not in "xyz" and values.ndim == 1 and values.dtype.kind in "iuf":

@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.mesh.edge_length import hex_lengths
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.mesh.topology import Topology
 
 #: Shortest length, as a share of the mean edge length: a direction without any extent gets it.
@@ -14,7 +15,7 @@ _LEAST = 1e-12
 
 
 def given_lengths(mesh: Mesh, which: np.ndarray | None = None) -> np.ndarray:
-    """Compute the lengths of hexes along x, y and z of their numbering: means of four parallel edges.
+    """Compute the lengths of cells along the edges of their corners: see `hexmend.mesh.edge_length.hex_lengths`.
 
     Lengths of edges are positive, however a hex is distorted or inverted.
 
@@ -35,7 +36,7 @@ def given_lengths(mesh: Mesh, which: np.ndarray | None = None) -> np.ndarray:
     >>> given_lengths(Mesh(UNIT_CUBE * [1, 2, 3], [range(8)]))
     array([[1., 2., 3.]])
     """
-    lengths = hex_lengths(mesh.points, mesh.hexes if which is None else mesh.hexes[which])
+    lengths = hex_lengths(mesh.points, mesh.elements if which is None else mesh.elements[which])
     return np.maximum(lengths, _LEAST * (mesh.mean_edge_length or 1.0), out=lengths)
 
 
@@ -49,9 +50,10 @@ def edge_numbers(topology: Topology) -> np.ndarray:
     Returns
     -------
     (m, 12) int32
-        Columns as of `hexmend.mesh.hexahedron.EDGES`; -1 for an edge whose two nodes are one.
+        Columns as of `hexmend.mesh.hexahedron.EDGES`; -1 for an edge whose two nodes are one, and in the rows of other
+        cells.
     """
-    edges, hexes = topology.edges, topology.hexes
+    edges, hexes = topology.edges, topology.elements
     start = np.concatenate([[0], np.cumsum(np.bincount(edges[:, 0], minlength=topology.n))])
     most = int(np.diff(start).max(initial=0))
     upper = np.concatenate([edges[:, 1], np.full(most, -1, np.int32)])  # the upper ends at a node ascend
@@ -62,4 +64,5 @@ def edge_numbers(topology: Topology) -> np.ndarray:
         for _ in range(1, most):
             at += upper[at] < high
         numbers[:, column] = np.where(low == high, -1, at)
+    numbers[kinds_of(hexes) > 0] = -1
     return numbers

@@ -120,7 +120,7 @@ def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.n
     True
     """
     lengths = given_lengths(mesh)
-    quality = quality or measure(mesh.points, mesh.hexes)
+    quality = quality or measure(mesh.points, mesh.elements)
     distorted = np.flatnonzero(quality.scaled_jacobian < DISTORTED)
     if distorted.size and mesh not in _RECOVERED:
         _RECOVERED[mesh] = as_immutable(_recovered(mesh, lengths, quality, distorted))
@@ -165,7 +165,7 @@ def _noisy_edges(
     skewed = region[quality.scaled_jacobian[region] < _SKEWED]
     if len(skewed) > _SCRAMBLED * len(region):
         skewed = region
-    near = mask(mesh.hexes[skewed], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
+    near = mask(mesh.elements[skewed], mesh.n_nodes)[mesh.elements[region]].any(axis=1)
     noisy[sheets.groups.reshape(-1, 12)[near]] = True
     low, high = mesh.topology.edges.T
     sound = _as_given(mesh)

@@ -31,8 +31,9 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
         auto off_diagonal = open(low, high);
         auto sums = std::make_unique<HessianSums>();
         auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
-        for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
-            int count = std::min(LANES, shared.start[share + 1] - first);
+        int count = 0;
+        for (auto first = shared.start[share]; first < shared.start[share + 1]; first += count) {
+            count = shared.alike(first, shared.start[share + 1]);
             // Hexes are in the order of slots, and their nodes in that of the mesh: what the next ones need is
             // prefetched.
             const auto end = shared.start[share + 1];
@@ -65,8 +66,12 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
                     if (s >= 0) off_diagonal.prefetch(s);
             }
             *sums = HessianSums{};
-            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, scales, delta, counted(t), *sums); });
-            weigh_hessian<Real>(*sums, norm, values.get());
+            with_kind(hexes[0], [&](auto cell) {
+                using Cell = decltype(cell);
+                unroll<Cell::corners>(
+                    [&](auto t) { add_tetrahedron<Cell, soft, t>(x, scales, delta, counted(t), *sums); });
+                weigh_hessian<Cell, Real>(*sums, norm, values.get());
+            });
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], slots[i], blocks[i], low, high, off_diagonal, diagonal);
         }

@@ -9,6 +9,7 @@
 #include "energy/target.hpp"
 #include "linear/packed_block.hpp"
 #include "linear/sparsity.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 
@@ -41,6 +42,12 @@ struct HexShares {
 
     // The number in the mesh of hex i of `count` from row `first` on; that of the last one beyond.
     std::int32_t number(std::int64_t first, int i, int count) const { return numbers[first + std::min(i, count - 1)]; }
+
+    // Rows from `first` on, before `end`, of cells of one kind: a block.
+    int alike(std::int64_t first, std::int64_t end) const {
+        return hexmend::alike(std::min<std::int64_t>(LANES, end - first),
+                              [&](int i) -> const Hex & { return hexes[numbers[first + i]]; });
+    }
 
     Hex slots_of(std::int32_t hex) const {
         Hex of;

@@ -35,7 +35,7 @@ constexpr auto ROTATED_DIRECTIONS = [] {
 // W = 1 at a corner tetrahedron, or for hexes.
 struct Unscaled {
     static constexpr bool scaled = false;
-    template <int t> Unscaled columns() const { return {}; }
+    template <class Cell, int t> Unscaled columns() const { return {}; }
 };
 
 // Factors of the columns of S at a corner tetrahedron, and the weight of the size.
@@ -45,13 +45,14 @@ template <class T> struct ColumnScales {
     double size_weight;
 };
 
-// Inverse target lengths of hexes along x, y and z.
+// Inverse target lengths of hexes along x, y and z; of other cells, of the columns of S W^-1 at every corner.
 template <class T> struct HexScales {
     static constexpr bool scaled = true;
     V3<T> inverse;
     double size_weight;
 
-    template <int t> ColumnScales<T> columns() const {
+    template <class Cell, int t> ColumnScales<T> columns() const {
+        if constexpr (!Cell::is_cube) return {inverse.x, inverse.y, inverse.z, size_weight};
         constexpr auto d = COLUMN_DIRECTIONS[t];
         return {along<d[0]>(), along<d[1]>(), along<d[2]>(), size_weight};
     }

@@ -63,11 +63,12 @@ struct CornerJacobian {
     M3<Lanes> a, g;
 };
 
-inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
+template <class Cell> inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
     auto c = cofactors(edges);
     auto over_square = [](const V3<Lanes> &e) { return square(e) > 0.0 ? 1.0 / square(e) : Lanes{}; };
     V3<Lanes> inverse{over_square(edges.u), over_square(edges.v), over_square(edges.w)};
     Lanes over = sqrt(inverse.x * inverse.y * inverse.z);
+    if constexpr (!Cell::is_cube) over = Cell::inverse_determinant * over;
     M3<Lanes> a{inverse.x * edges.u, inverse.y * edges.v, inverse.z * edges.w};
     M3<Lanes> g{over * c.u - s * a.u, over * c.v - s * a.v, over * c.w - s * a.w};
     return {s, over, inverse, a, g};
@@ -77,10 +78,10 @@ inline CornerJacobian corner_jacobian(const M3<Lanes> &edges, const Lanes &s) {
 //
 // With b the columns of S over their squares, g = s' and L = 1/(|u| |v| |w|), the block of two edges i, j of s'' is
 // L [d cof_i/d e_j] - g_i a_j' - a_i g_j' - s a_i a_j', and for i = j also s (2 a_i a_i' - I/|e_i|^2).
-template <int t>
+template <class Cell, int t>
 __attribute__((noinline)) void add_corner_hessian(const M3<Lanes> &edges, const CornerJacobian &at, const Barriers &by,
                                                   HessianSums &sums) {
-    constexpr auto &n = CORNER_TETRAHEDRA[t];
+    constexpr auto &n = Cell::table.corner_tetrahedra[t];
     const auto &[u, v, w] = edges;
     const auto &[gu, gv, gw] = at.g;
     const auto &[au, av, aw] = at.a;
@@ -129,30 +130,40 @@ struct LaneFloors {
 // Value that is above any floor.
 inline Lanes above_all() { return broadcast<Lanes>(INF); }
 
-template <class Scales> Lanes quality_of(const Corners<Lanes> &x, const Scales &scales, const auto &counted) {
+template <class Cell, class Scales>
+Lanes quality_of(const Corners<Lanes> &x, const Scales &scales, const auto &counted) {
     Lanes sum{};
-    unroll<8>([&](auto t) { sum += 1.0 / eta<false>(x.edges<t>(), scales.template columns<t>(), 0.0, counted(t)); });
-    return sum * 0.125;
+    unroll<Cell::corners>([&](auto t) {
+        sum += 1.0 / eta<false>(x.shape<Cell, t>(), scales.template columns<Cell, t>(), 0.0, counted(t));
+    });
+    return sum * Cell::share;
 }
 
 constexpr Bits ALL = Bits{} - 1;
 
+// A derivative by the sum of eighths of the corners' q(T) from that by their mean.
+template <class Cell> Lanes by_eighths(const Lanes &derivative) {
+    if constexpr (Cell::is_cube) return derivative;
+    return Cell::share_of_eighths * derivative;
+}
+
 template <class Target>
 void values_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, std::span<double> values,
                const Target &target) {
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        using Cell = decltype(cell);
         LaneFloors block(floors, count, [&](int i) { return first + i; });
         Lanes sum{};
         if (block.any()) {
             auto x = gather_corners<Lanes>(points, hexes, first, count);
             if (block.some(block.jacobian))
-                unroll<8>([&](auto t) {
-                    auto s = scaled_jacobian(x.edges<t>());
+                unroll<Cell::corners>([&](auto t) {
+                    auto s = scaled_jacobian<Cell>(x.edges<Cell, t>());
                     sum += barrier_of<false>(s, block.jacobian, floors.jacobian_band, block.counted(t)).value;
                 });
             if (block.some(block.quality)) {
                 CornerMask<Lanes> counted(omitted, first, count);
-                auto quality = quality_of(x, scales_of<Lanes>(target, first, count), counted);
+                auto quality = quality_of<Cell>(x, scales_of<Lanes>(target, first, count), counted);
                 sum += barrier_of<false>(quality, block.quality, floors.quality_band, ALL).value;
             }
         }
@@ -163,7 +174,8 @@ void values_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners 
 template <class Target>
 void gradient_of(Points points, Hexes hexes, const Floors &floors, OmittedCorners omitted, CornerVectors shares,
                  const Target &target) {
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        using Cell = decltype(cell);
         LaneFloors block(floors, count, [&](int i) { return first + i; });
         if (!block.any()) return;
         auto x = gather_corners<Lanes>(points, hexes, first, count);
@@ -171,28 +183,28 @@ void gradient_of(Points points, Hexes hexes, const Floors &floors, OmittedCorner
         CornerMask<Lanes> counted(omitted, first, count);
         Corners<Lanes> total;
         bool some = false;
-        auto quality = block.some(block.quality) ? quality_of(x, scales, counted) : above_all();
+        auto quality = block.some(block.quality) ? quality_of<Cell>(x, scales, counted) : above_all();
         auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
         if (by.any) {
             some = true;
-            unroll<8>([&](auto t) {
-                auto edges = x.edges<t>();
-                auto columns = scales.template columns<t>();
+            unroll<Cell::corners>([&](auto t) {
+                auto edges = x.shape<Cell, t>();
+                auto columns = scales.template columns<Cell, t>();
                 const auto &s = scale(edges, columns);
                 auto cof = cofactors(s);
                 auto d = Inverse{}(derivatives<false>(edges, columns, s, cof, 0.0, counted(t)));
-                total.scatter<t>(scale(gradient<Lanes>(d, s, cof), columns));
+                total.scatter<Cell, t>(by_edges<Cell>(scale(gradient<Lanes>(d, s, cof), columns)));
             });
-            for (auto &corner : total.at) corner = by.first * corner;
+            for (auto &corner : total.at) corner = by_eighths<Cell>(by.first) * corner;
         }
-        unroll<8>([&](auto t) {
-            auto edges = x.edges<t>();
-            auto s = scaled_jacobian(edges);
+        unroll<Cell::corners>([&](auto t) {
+            auto edges = x.edges<Cell, t>();
+            auto s = scaled_jacobian<Cell>(edges);
             auto here = barrier_of<true>(s, block.jacobian, floors.jacobian_band, block.counted(t));
             if (!here.any) return;
             some = true;
-            auto g = corner_jacobian(edges, s).g;
-            total.template scatter<t>(M3<Lanes>{here.first * g.u, here.first * g.v, here.first * g.w});
+            auto g = corner_jacobian<Cell>(edges, s).g;
+            total.template scatter<Cell, t>(M3<Lanes>{here.first * g.u, here.first * g.v, here.first * g.w});
         });
         if (!some) return;
         for (auto &corner : total.at) corner = broadcast<Lanes>(floors.weight) * corner;
@@ -211,8 +223,9 @@ template <class Target>
 std::vector<std::int32_t> hexes_near_floors(Points points, const Floors &floors, OmittedCorners omitted,
                                             const HexShares &shared, std::int64_t share, const Target &target) {
     std::vector<std::int32_t> near;
-    for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
-        int count = std::min(LANES, shared.start[share + 1] - first);
+    int count = 0;
+    for (auto first = shared.start[share]; first < shared.start[share + 1]; first += count) {
+        count = shared.alike(first, shared.start[share + 1]);
         const std::int32_t *numbers = &shared.numbers[first];
         LaneFloors block(floors, count, [&](int i) { return numbers[i]; });
         if (!block.any()) continue;
@@ -220,17 +233,19 @@ std::vector<std::int32_t> hexes_near_floors(Points points, const Floors &floors,
         for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[numbers[i]];
         auto x = gather_corners<Lanes>(points, hexes, 0, count);
         Bits found{};
-        unroll<8>([&](auto t) {
-            auto s = scaled_jacobian(x.edges<t>());
-            found |= below(s, block.jacobian, floors.jacobian_band, block.counted(t), SURELY_ABOVE);
-        });
-        if (block.some(block.quality)) {
+        with_kind(hexes[0], [&](auto cell) {
+            using Cell = decltype(cell);
+            unroll<Cell::corners>([&](auto t) {
+                auto s = scaled_jacobian<Cell>(x.edges<Cell, t>());
+                found |= below(s, block.jacobian, floors.jacobian_band, block.counted(t), SURELY_ABOVE);
+            });
+            if (!block.some(block.quality)) return;
             auto scales = scales_of<Lanes>(target, [&](int i) { return shared.number(first, i, count); });
             std::uint8_t bits[LANES] = {};
             for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
-            auto quality = quality_of(x, scales, CornerMask<Lanes>(bits, 0, count));
+            auto quality = quality_of<Cell>(x, scales, CornerMask<Lanes>(bits, 0, count));
             found |= below(quality, block.quality, floors.quality_band, ALL, SURELY_ABOVE);
-        }
+        });
         for (int i = 0; i < count; ++i)
             if (found[i]) near.push_back(numbers[i]);
     }
@@ -246,9 +261,11 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
         auto sums = std::make_unique<HessianSums>();
         auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
         const auto near = hexes_near_floors(points, floors, omitted, shared, share, target);
-        for (std::size_t first = 0; first < near.size(); first += LANES) {
-            int count = static_cast<int>(std::min<std::size_t>(LANES, near.size() - first));
+        int count = 0;
+        for (std::size_t first = 0; first < near.size(); first += count) {
             const std::int32_t *numbers = &near[first];
+            count = alike(std::min<std::int64_t>(LANES, near.size() - first),
+                          [&](int i) -> const Hex & { return shared.hexes[numbers[i]]; });
             LaneFloors block(floors, count, [&](int i) { return numbers[i]; });
             Hex hexes[LANES];
             for (int i = 0; i < count; ++i) hexes[i] = shared.hexes[numbers[i]];
@@ -258,24 +275,31 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
             for (int i = 0; i < count; ++i) bits[i] = omitted[numbers[i]];
             CornerMask<Lanes> counted(bits, 0, count);
             *sums = HessianSums{};
-            auto quality = block.some(block.quality) ? quality_of(x, scales, counted) : above_all();
-            auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
-            bool some = by.any;
-            if (by.any) {
-                unroll<8>([&](auto t) { add_tetrahedron<false, t>(x, scales, 0.0, counted(t), *sums, Inverse{}); });
-                for (auto &entry : sums->at) entry = by.first * entry;
-            }
-            unroll<8>([&](auto t) {
-                auto edges = x.edges<t>();
-                auto s = scaled_jacobian(edges);
-                auto here = barrier_of<true>(s, block.jacobian, floors.jacobian_band, block.counted(t));
-                if (!here.any) return;
-                some = true;
-                add_corner_hessian<t>(edges, corner_jacobian(edges, s), here, *sums);
+            bool some = false;
+            with_kind(hexes[0], [&](auto cell) {
+                using Cell = decltype(cell);
+                auto quality = block.some(block.quality) ? quality_of<Cell>(x, scales, counted) : above_all();
+                auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
+                some = by.any;
+                if (by.any) {
+                    unroll<Cell::corners>([&](auto t) {
+                        add_tetrahedron<Cell, false, t>(x, scales, 0.0, counted(t), *sums, Inverse{});
+                    });
+                    for (auto &entry : sums->at) entry = by_eighths<Cell>(by.first) * entry;
+                }
+                unroll<Cell::corners>([&](auto t) {
+                    auto edges = x.edges<Cell, t>();
+                    auto s = scaled_jacobian<Cell>(edges);
+                    auto here = barrier_of<true>(s, block.jacobian, floors.jacobian_band, block.counted(t));
+                    if (!here.any) return;
+                    some = true;
+                    add_corner_hessian<Cell, t>(edges, corner_jacobian<Cell>(edges, s), here, *sums);
+                });
+                if (!some) return;
+                auto second = by_eighths<Cell>(by_eighths<Cell>(by.second));
+                weigh_hessian<Real>(*sums, broadcast<Lanes>(floors.weight), floors.weight * second, values.get());
             });
             if (!some) continue;
-            auto weight = broadcast<Lanes>(floors.weight);
-            weigh_hessian<Real>(*sums, weight, floors.weight * by.second, values.get());
             for (int i = 0; i < count; ++i) {
                 Hex slots = shared.slots_of(numbers[i]);
                 scatter<Real>(values[i], slots, blocks_of(slots, shared.row_start, shared.columns), low, high,
@@ -297,10 +321,11 @@ void floor_qualities(Points points, Hexes hexes, OmittedCorners omitted, std::sp
     expect(have_rows(hexes.size(), omitted, values), "omitted and values: one for each hex is expected");
     expect_rows(target, hexes.size());
     with_target(target, [&](const auto &w) {
-        for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+            using Cell = decltype(cell);
             auto x = gather_corners<Lanes>(points, hexes, first, count);
             CornerMask<Lanes> counted(omitted, first, count);
-            store(quality_of(x, scales_of<Lanes>(w, first, count), counted), first, count, values);
+            store(quality_of<Cell>(x, scales_of<Lanes>(w, first, count), counted), first, count, values);
         });
     });
 }

@@ -38,6 +38,16 @@ struct HessianSums {
     }
 };
 
+// Rows of W^-1 of a kind of cells, with those of its target.
+template <class Cell, class Scales> inline M3<Lanes> ideal_rows(const Scales &by) {
+    constexpr auto &v = Cell::table.inverse;
+    M3<Lanes> columns{{broadcast<Lanes>(v[0][0]), Lanes{}, Lanes{}},
+                      {broadcast<Lanes>(v[0][1]), broadcast<Lanes>(v[1][1]), Lanes{}},
+                      {broadcast<Lanes>(v[0][2]), broadcast<Lanes>(v[1][2]), broadcast<Lanes>(v[2][2])}};
+    const auto [a, b, c] = scale(columns, by);
+    return {{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}};
+}
+
 // Add eta(T) of corner tetrahedron t, and an eighth of its gradient and second derivatives by its nodes: (B.19),
 // corrected as in tetrahedron.hpp.
 //
@@ -46,34 +56,44 @@ struct HessianSums {
 //
 // With a target the columns of S W^-1 that belong to a node are scaled once more, by its derivative. With `Inverse` it
 // is q(T) = 1/eta(T) instead.
-template <bool soft, int t, class Scales, class Function = Itself>
+template <class Cell, bool soft, int t, class Scales, class Function = Itself>
 __attribute__((noinline)) void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, double delta,
                                                Bits counted, HessianSums &sums, Function function = {}) {
-    constexpr auto &n = CORNER_TETRAHEDRA[t];
-    const auto by = scales.template columns<t>();
-    auto edges = x.edges<t>();
+    constexpr auto &n = Cell::table.corner_tetrahedra[t];
+    const auto by = scales.template columns<Cell, t>();
+    auto edges = x.shape<Cell, t>();
     const auto &s = scale(edges, by);
     auto c = cofactors(s);
     auto d = function(derivatives<soft>(edges, by, s, c, delta, counted));
     sums.eta += counted ? d.eta : broadcast<Lanes>(1.0);
-    sums.g.scatter<t>(scale(gradient<Lanes>(d, s, c), by));
+    sums.g.scatter<Cell, t>(by_edges<Cell>(scale(gradient<Lanes>(d, s, c), by)));
     M3<Lanes> p{d.mixed * s.u + d.half * c.u, d.mixed * s.v + d.half * c.v, d.mixed * s.w + d.half * c.w};
     if constexpr (Scales::scaled) c = scale(c, by), p = scale(p, by);
+    c = by_edges<Cell>(c), p = by_edges<Cell>(p);
     V3<Lanes> ca = -(c.u + c.v + c.w), pa = -(p.u + p.v + p.w);
     V3<Lanes> u = d.c * s.u, v = d.c * s.v, w = d.c * s.w;
-    Lanes ku = -d.k, kv = -d.k, kw = -d.k;
-    if constexpr (Scales::scaled) {
+    Lanes ku = -d.k, kv = -d.k, kw = -d.k, kuv{}, kuw{}, kvw{};
+    if constexpr (!Cell::is_cube) {
+        auto [eu, ev, ew] = x.edges<Cell, t>();
+        Lanes twist = scale(d.c * Cell::inverse_determinant, by);
+        u = twist * eu, v = twist * ev, w = twist * ew;
+        // The edges of unit tetrahedra as rows of W^-1 with the target: their products are those of (V, W).
+        auto [ru, rv, rw] = ideal_rows<Cell>(by);
+        auto k = [&](const V3<Lanes> &a, const V3<Lanes> &b) { return d.k * dot(a, b); };
+        kuv = k(ru, rv), kuw = k(ru, rw), kvw = k(rv, rw);
+        ku = -k(ru, ru + rv + rw), kv = -k(rv, ru + rv + rw), kw = -k(rw, ru + rv + rw);
+    } else if constexpr (Scales::scaled) {
         u = (by.v * by.w) * u, v = (by.w * by.u) * v, w = (by.u * by.v) * w;
         ku *= by.u * by.u, kv *= by.v * by.v, kw *= by.w * by.w;
     }
     sums.pair<n[0], n[1]>(ca, pa, c.u, p.u, ku, w - v);
     sums.pair<n[0], n[2]>(ca, pa, c.v, p.v, kv, u - w);
     sums.pair<n[0], n[3]>(ca, pa, c.w, p.w, kw, v - u);
-    sums.pair<n[1], n[2]>(c.u, p.u, c.v, p.v, Lanes{}, w);
-    sums.pair<n[1], n[3]>(c.u, p.u, c.w, p.w, Lanes{}, -v);
-    sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, Lanes{}, u);
+    sums.pair<n[1], n[2]>(c.u, p.u, c.v, p.v, kuv, w);
+    sums.pair<n[1], n[3]>(c.u, p.u, c.w, p.w, kuw, -v);
+    sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, kvw, u);
     if constexpr (Function::has_squares) {  // d.squares times s s'
-        const auto &[su, sv, sw] = scale(s, by);
+        const auto [su, sv, sw] = by_edges<Cell>(scale(s, by));
         V3<Lanes> none{};
         V3<Lanes> qu = d.squares * su, qv = d.squares * sv, qw = d.squares * sw, apex = -(su + sv + sw);
         sums.pair<n[0], n[1]>(apex, none, none, qu, Lanes{}, none);
@@ -149,8 +169,9 @@ template <class Real> void weigh_hessian(const HessianSums &sums, Lanes first, L
 }
 
 // Of eta(H)^p.
-template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm norm, Real (*out)[HEX_STRIDE]) {
-    LanePowerDerivatives<Lanes> by(sums.eta * 0.125 - norm.offset, norm.p);
+template <class Cell, class Real>
+void weigh_hessian(const HessianSums &sums, ObjectiveNorm norm, Real (*out)[HEX_STRIDE]) {
+    auto by = power_derivatives_of<Cell>(sums.eta, norm.offset, norm.p);
     weigh_hessian<Real>(sums, by.first, by.second, out);
 }
 

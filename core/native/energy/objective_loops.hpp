@@ -1,4 +1,4 @@
-// The loops of `objective`: blocks of hexes for T = Lanes, one hex after another for T = double.
+// The loops of `objective`: blocks of cells for T = Lanes, one cell after another for T = double.
 #pragma once
 
 #include "energy/objective.hpp"
@@ -13,16 +13,17 @@ void energies_in(Points points, Hexes hexes, double delta, double offset, Omitte
     expect(have_rows(hexes.size(), omitted, eta), "omitted and eta: one for each hex is expected");
     expect_rows(matrices, hexes.size());
     with_cases(matrices, delta, [&](auto soft, const auto &target) {
-        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        for_each_block<T>(hexes, [&](auto cell, std::int64_t first, int count) {
+            using Cell = decltype(cell);
             auto x = gather_corners<T>(points, hexes, first, count);
             auto scales = scales_of<T>(target, first, count);
             T sum{};
             with_corner_mask<T>(omitted, first, count, [&](auto counted) {
-                unroll<8>([&](auto t) {
-                    sum += hexmend::eta<soft>(x.template edges<t>(), scales.template columns<t>(), delta, counted(t));
+                unroll<Cell::corners>([&](auto t) {
+                    sum += hexmend::eta<soft>(x.template shape<Cell, t>(), scales.template columns<Cell, t>(), delta, counted(t));
                 });
             });
-            sum = hex_energy(sum, offset);
+            sum = cell_energy(sum, Cell::share, offset);
             for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
         });
     });
@@ -34,22 +35,23 @@ void gradient_in(Points points, Hexes hexes, double delta, ObjectiveNorm norm, O
     expect(have_rows(hexes.size(), omitted, shares), "omitted and shares: one for each hex is expected");
     expect_rows(matrices, hexes.size());
     with_cases(matrices, delta, [&](auto soft, const auto &target) {
-        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        for_each_block<T>(hexes, [&](auto cell, std::int64_t first, int count) {
+            using Cell = decltype(cell);
             auto x = gather_corners<T>(points, hexes, first, count);
             auto scales = scales_of<T>(target, first, count);
             CornerMask<T> counted(omitted, first, count);
             Corners<T> g;
             T sum{};
-            unroll<8>([&](auto t) {
-                auto edges = x.template edges<t>();
-                auto by = scales.template columns<t>();
+            unroll<Cell::corners>([&](auto t) {
+                auto edges = x.template shape<Cell, t>();
+                auto by = scales.template columns<Cell, t>();
                 const auto &s = scale(edges, by);
                 auto cof = cofactors(s);
                 auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
                 sum += counted(t) ? d.eta : broadcast<T>(1.0);
-                g.template scatter<t>(scale(gradient(d, s, cof), by));
+                g.template scatter<Cell, t>(by_edges<Cell>(scale(gradient(d, s, cof), by)));
             });
-            LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
+            auto by = power_derivatives_of<Cell>(sum, norm.offset, norm.p);
             for (auto &corner : g.at) corner = by.first * corner;
             store(g, first, count, shares);
         });
@@ -62,27 +64,28 @@ void hessian_product_in(Points points, Hexes hexes, Hexes slots, Points values, 
     expect(have_rows(hexes.size(), omitted, slots, shares), "omitted, slots and shares: one for each hex is expected");
     expect_rows(matrices, hexes.size());
     with_cases(matrices, delta, [&](auto soft, const auto &target) {
-        for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        for_each_block<T>(hexes, [&](auto cell, std::int64_t first, int count) {
+            using Cell = decltype(cell);
             auto x = gather_corners<T>(points, hexes, first, count);
             auto v = gather_corners_or_zero<T>(values, slots, first, count);
             auto scales = scales_of<T>(target, first, count);
             CornerMask<T> counted(omitted, first, count);
             Corners<T> g, h;
             T sum{}, slope{};
-            unroll<8>([&](auto t) {
-                auto edges = x.template edges<t>();
-                auto by = scales.template columns<t>();
-                auto directions = v.template edges<t>();
+            unroll<Cell::corners>([&](auto t) {
+                auto edges = x.template shape<Cell, t>();
+                auto by = scales.template columns<Cell, t>();
+                auto directions = v.template shape<Cell, t>();
                 const auto &s = scale(edges, by), &a = scale(directions, by);
                 auto cof = cofactors(s);
                 auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
                 DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
                 sum += counted(t) ? d.eta : broadcast<T>(1.0);
                 slope += along.slope(d);
-                g.template scatter<t>(scale(gradient(d, s, cof), by));
-                h.template scatter<t>(scale(product(d, s, cof, a, along), by));
+                g.template scatter<Cell, t>(by_edges<Cell>(scale(gradient(d, s, cof), by)));
+                h.template scatter<Cell, t>(by_edges<Cell>(scale(product(d, s, cof, a, along), by)));
             });
-            LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
+            auto by = power_derivatives_of<Cell>(sum, norm.offset, norm.p);
             T along = by.second * slope;
             for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
             store(h, first, count, shares);

@@ -10,7 +10,8 @@
 // The second is (B.19), corrected, with (B.3) substituted for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing
 // is divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
 //
-// With a target, S is S W^-1 throughout (column_scales.hpp), and next to the shape the size counts: weight g(h), g(h) =
+// For a cell that is no hex, and with a target, S is S W^-1 throughout (hexahedron.hpp, column_scales.hpp). With a target,
+// next to the shape the size counts: weight g(h), g(h) =
 // (h + 1/h)/2 - 1, which is convex in sigma for any delta. With h' = h/r and h'' = 2 delta^2/r^3 its derivatives by
 // sigma are (h - 1/h)/(2 r) and 1/(h r^2) + (1 - 1/h^2) delta^2/r^3.
 //
@@ -47,17 +48,19 @@ template <class T> inline T power_minus_two_thirds(T h) {
     return h > MAX_FINITE ? broadcast<T>(0.0) : q;
 }
 
-// eta(H) from the sum of its eight eta(T), (B.20). With delta > 0 the value may fall below 0, which counts as 0; NaN,
-// from coinciding or overflowing corners, counts as INF.
-template <class T> inline T hex_energy(T sum, double offset) {
-    T energy = sum * 0.125 - offset;
+// eta(H) from the sum of its eta(T), each of which has this share, (B.20). With delta > 0 the value may fall below 0,
+// which counts as 0; NaN, from coinciding or overflowing corners, counts as INF.
+template <class T> inline T cell_energy(T sum, auto share, double offset) {
+    T energy = sum * share - offset;
     return energy > 0.0 ? energy : energy <= 0.0 ? broadcast<T>(0.0) : broadcast<T>(INF);
 }
 
-// Scaled Jacobian sigma/(|u||v||w|); -1 where an edge has no length.
-template <class T> inline T scaled_jacobian(const M3<T> &edges) {
+// Scaled Jacobian sigma/(|u||v||w|) over that of the ideal cell; -1 where an edge has no length.
+template <class Cell, class T> inline T scaled_jacobian(const M3<T> &edges) {
     T lengths = length(edges.u) * length(edges.v) * length(edges.w);
-    return lengths > 0.0 ? determinant(edges) / lengths : broadcast<T>(-1.0);
+    T ratio = determinant(edges) / lengths;
+    if constexpr (!Cell::is_cube) ratio = Cell::inverse_determinant * ratio;
+    return lengths > 0.0 ? ratio : broadcast<T>(-1.0);
 }
 
 // Result of `barrier`.

@@ -43,9 +43,9 @@ template <class Number> bool are_csr(std::span<const Number> start, std::size_t 
     return !start.empty() && std::cmp_equal(start.back(), items);
 }
 
-// Throw unless start and corners can be the corners of so many hexes at each node, see incidence.hpp.
-inline void expect_corners(std::size_t hexes, Indices start, Indices corners) {
-    expect(corners.size() == 8 * hexes, "corners: eight for each of the hexes are expected");
+// Throw unless start and corners can be the corners of so many cells at each node, see incidence.hpp.
+inline void expect_corners(std::size_t cells, Indices start, Indices corners) {
+    expect(4 * cells <= corners.size() && corners.size() <= 8 * cells, "corners: four to eight a cell are expected");
     expect(are_csr(start, corners.size()), "start: its last number is expected to be the length of corners");
 }
 

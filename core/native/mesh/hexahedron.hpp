@@ -1,4 +1,4 @@
-// The reference hexahedron, numbered as `hexmend.mesh.hexahedron` draws it.
+// The reference hexahedron, numbered as `hexmend.mesh.hexahedron` draws it, and the other kinds of cells.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include "simd/vectors.hpp"
 
 namespace hexmend {
+
+constexpr double ROOT_2 = 1.4142135623730951, ROOT_3 = 1.7320508075688772, ROOT_6 = 2.449489742783178;
 
 using Node = std::int32_t;
 using Hex = std::array<Node, 8>;
@@ -22,20 +24,82 @@ inline Point unit(const V3<double> &v) {
     return size > 0 ? point((1 / size) * v) : Point{};
 }
 
-// Corner tetrahedra (a, b, c, d), apex a first: det [x_b - x_a, x_c - x_a, x_d - x_a] = +1 on the unit cube, Table 2.1.
-constexpr int CORNER_TETRAHEDRA[8][4] = {
-    {0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3},
+// A kind of cells: what is listed of each is numbered by its own nodes, in the order of VTK. A triangle is a quad whose
+// last two nodes are one. With W the edges of the ideal cell at each of its corner tetrahedra, S W^-1 takes the place of
+// S: `inverse` is W^-1, upper triangular, and its determinant is 1 over the scaled Jacobian of the ideal cell.
+struct CellTable {
+    int nodes, corners, edges, faces;
+    int corner_tetrahedra[8][4], edge_ends[12][2], face_nodes[6][4];
+    double inverse[3][3];
+
+    constexpr double inverse_determinant() const { return inverse[0][0] * inverse[1][1] * inverse[2][2]; }
 };
 
-// Four edges along x, four along y, four along z.
-constexpr int EDGES[12][2] = {
-    {0, 1}, {3, 2}, {4, 5}, {7, 6}, {0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 4}, {1, 5}, {3, 7}, {2, 6},
+enum CellKind { HEXAHEDRON, WEDGE, PYRAMID, TETRAHEDRON, CELL_KINDS };
+
+// The ideal cells: a cube, an equilateral triangle extruded by its edge, a pyramid of equal edges, a regular tetrahedron.
+inline constexpr CellTable CELL_TABLES[CELL_KINDS] = {
+    {8, 8, 12, 6,
+     {{0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}},
+     {{0, 1}, {3, 2}, {4, 5}, {7, 6}, {0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 4}, {1, 5}, {3, 7}, {2, 6}},
+     {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}},
+     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    {6, 6, 9, 5,
+     {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}},
+     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+     {{0, 2, 1, 1}, {3, 4, 5, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+     {{1, -1 / ROOT_3, 0}, {0, 2 / ROOT_3, 0}, {0, 0, 1}}},
+    {5, 4, 8, 5,
+     {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}},
+     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+     {{0, 3, 2, 1}, {0, 1, 4, 4}, {1, 2, 4, 4}, {2, 3, 4, 4}, {3, 0, 4, 4}},
+     {{1, 0, -ROOT_2 / 2}, {0, 1, -ROOT_2 / 2}, {0, 0, ROOT_2}}},
+    {4, 1, 6, 4,
+     {{0, 1, 2, 3}},
+     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+     {{0, 2, 1, 1}, {0, 1, 3, 3}, {1, 2, 3, 3}, {2, 0, 3, 3}},
+     {{1, -1 / ROOT_3, -1 / ROOT_6}, {0, 2 / ROOT_3, -1 / ROOT_6}, {0, 0, ROOT_6 / 2}}},
 };
 
+// The kind of a row of eight nodes: that of fewer nodes is padded by its last one.
+inline CellKind kind_of(const Hex &row) {
+    if (row[6] != row[7] || row[5] != row[6]) [[likely]] return HEXAHEDRON;
+    if (row[4] != row[5]) return WEDGE;
+    if (row[3] != row[4]) return PYRAMID;
+    return row[2] != row[3] ? TETRAHEDRON : HEXAHEDRON;
+}
+
+inline const CellTable &table_of(const Hex &row) { return CELL_TABLES[kind_of(row)]; }
+
+// A kind as a type.
+template <CellKind kind> struct Cell {
+    static constexpr const CellTable &table = CELL_TABLES[kind];
+    static constexpr bool is_cube = kind == HEXAHEDRON;
+    static constexpr int corners = table.corners;
+    static constexpr double share = 1.0 / table.corners;  // of each corner in a mean
+    static constexpr double share_of_eighths = 8.0 / table.corners;
+    static constexpr double inverse_determinant = table.inverse_determinant();
+};
+
+using Hexahedron = Cell<HEXAHEDRON>;
+
+// Call body(cell) with the kind of a row.
+template <class Body> inline __attribute__((always_inline)) auto with_kind(const Hex &row, const Body &body) {
+    switch (kind_of(row)) {
+    case WEDGE: return body(Cell<WEDGE>{});
+    case PYRAMID: return body(Cell<PYRAMID>{});
+    case TETRAHEDRON: return body(Cell<TETRAHEDRON>{});
+    default: return body(Hexahedron{});
+    }
+}
+
+// Of hexes. Corner tetrahedra (a, b, c, d), apex a first: det [x_b - x_a, x_c - x_a, x_d - x_a] = +1 on the unit cube,
+// Table 2.1; four edges along x, four along y, four along z; faces seen counter-clockwise from outside: x-, x+, y-, y+,
+// z-, z+.
+inline constexpr auto &CORNER_TETRAHEDRA = Hexahedron::table.corner_tetrahedra;
+inline constexpr auto &EDGES = Hexahedron::table.edge_ends;
+inline constexpr auto &FACES = Hexahedron::table.face_nodes;
 constexpr int DIAGONALS[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
-
-// Each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
-constexpr int FACES[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
 // Corner coordinates of the unit cube.
 constexpr int UNIT_CUBE[8][3] = {
@@ -93,19 +157,41 @@ template <int n, class Body> inline __attribute__((always_inline)) void unroll(B
         __attribute__((always_inline)) { (body(constant<i>{}), ...); }(std::make_integer_sequence<int, n>{});
 }
 
+// S W^-1 of a kind of cells.
+template <class Cell, class T> inline __attribute__((always_inline)) M3<T> with_ideal(const M3<T> &s) {
+    if constexpr (Cell::is_cube) return s;
+    constexpr auto &v = Cell::table.inverse;
+    auto times = [](double factor, const V3<T> &column) { return broadcast<T>(factor) * column; };
+    return {s.u, times(v[0][1], s.u) + times(v[1][1], s.v),
+            times(v[0][2], s.u) + times(v[1][2], s.v) + times(v[2][2], s.w)};
+}
+
+// A derivative by S from that by S W^-1.
+template <class Cell, class T> inline __attribute__((always_inline)) M3<T> by_edges(const M3<T> &g) {
+    if constexpr (Cell::is_cube) return g;
+    constexpr auto &v = Cell::table.inverse;
+    auto times = [](double factor, const V3<T> &column) { return broadcast<T>(factor) * column; };
+    return {g.u + times(v[0][1], g.v) + times(v[0][2], g.w), times(v[1][1], g.v) + times(v[1][2], g.w),
+            times(v[2][2], g.w)};
+}
+
 // A vector at each of the eight corners.
 template <class T> struct Corners {
     V3<T> at[8];
 
-    // The columns of S at corner tetrahedron t: edges from its apex.
-    template <int t> M3<T> edges() const {
-        constexpr auto &n = CORNER_TETRAHEDRA[t];
+    // The columns of S at corner tetrahedron t of a kind of cells: edges from its apex.
+    template <class Cell, int t> M3<T> edges() const {
+        constexpr auto &n = Cell::table.corner_tetrahedra[t];
         return {at[n[1]] - at[n[0]], at[n[2]] - at[n[0]], at[n[3]] - at[n[0]]};
     }
+    template <int t> M3<T> edges() const { return edges<Hexahedron, t>(); }
+
+    // S W^-1 there.
+    template <class Cell, int t> M3<T> shape() const { return with_ideal<Cell>(edges<Cell, t>()); }
 
     // Add a derivative by the columns of S to the nodes that make them.
-    template <int t> void scatter(const M3<T> &g) {
-        constexpr auto &n = CORNER_TETRAHEDRA[t];
+    template <class Cell, int t> void scatter(const M3<T> &g) {
+        constexpr auto &n = Cell::table.corner_tetrahedra[t];
         at[n[1]] += g.u;
         at[n[2]] += g.v;
         at[n[3]] += g.w;
@@ -113,10 +199,11 @@ template <class T> struct Corners {
     }
 };
 
-// Sum of the lengths of the twelve edges.
-template <class T> inline T edge_lengths(const Corners<T> &x) {
+// Sum of the lengths of a cell's edges.
+template <class Cell = Hexahedron, class T> inline T edge_lengths(const Corners<T> &x) {
     T total{};
-    unroll<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
+    constexpr auto &ends = Cell::table.edge_ends;
+    unroll<Cell::table.edges>([&](auto e) { total += length(x.at[ends[e][1]] - x.at[ends[e][0]]); });
     return total;
 }
 

@@ -11,13 +11,18 @@ struct DistanceRange {
     Lanes least, greatest;
 };
 
-template <std::size_t n> DistanceRange distances(const Corners<Lanes> &x, const int (&pairs)[n][2]) {
+template <int n> DistanceRange distances(const Corners<Lanes> &x, const auto &pairs) {
     Lanes low = broadcast<Lanes>(INF), high{};
     unroll<n>([&](auto i) {
         Lanes d = square(x.at[pairs[i][1]] - x.at[pairs[i][0]]);
         low = min(d, low), high = max(d, high);
     });
     return {sqrt(low), sqrt(high)};
+}
+
+// A metric that is defined for hexes alone: no number for other cells.
+template <class Cell> Lanes of_hexes(const Lanes &value) {
+    return Cell::is_cube ? value : broadcast<Lanes>(std::numeric_limits<double>::quiet_NaN());
 }
 
 // Coordinate of a corner along x, y or z in the cube [-1, 1]^3.
@@ -49,20 +54,22 @@ void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span
              std::span<double> diagonal) {
     expect(have_rows(hexes.size(), edge_ratio, stretch, diagonal),
            "edge_ratio, stretch and diagonal: one for each of hexes is expected");
-    const double ROOT_3 = sqrt(3.0);
-    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
-        auto [shortest, longest] = distances(x, EDGES);
-        auto [narrow, wide] = distances(x, DIAGONALS);
+    for_each_corners<Lanes>(points, hexes, [&](auto cell, const Corners<Lanes> &x, std::int64_t first, int count) {
+        using Cell = decltype(cell);
+        auto [shortest, longest] = distances<Cell::table.edges>(x, Cell::table.edge_ends);
+        auto [narrow, wide] = distances<4>(x, DIAGONALS);
         store(shortest > 0.0 ? longest / shortest : broadcast<Lanes>(INF), first, count, edge_ratio);
-        store(shortest > 0.0 ? ROOT_3 * shortest / wide : broadcast<Lanes>(0.0), first, count, stretch);
-        store(wide > 0.0 ? narrow / wide : broadcast<Lanes>(0.0), first, count, diagonal);
+        auto full = shortest > 0.0 ? ROOT_3 * shortest / wide : broadcast<Lanes>(0.0);
+        store(of_hexes<Cell>(full), first, count, stretch);
+        store(of_hexes<Cell>(wide > 0.0 ? narrow / wide : broadcast<Lanes>(0.0)), first, count, diagonal);
     });
 }
 
 void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<double> skew, std::span<double> taper) {
     expect(have_rows(hexes.size(), aspect_ratio, skew, taper),
            "aspect_ratio, skew and taper: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        using Cell = decltype(cell);
         auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
         V3<Lanes> X[3] = {axis<0>(x), axis<1>(x), axis<2>(x)};
         Lanes crossing[3] = {length(cross_derivative<0>(x)), length(cross_derivative<1>(x)),
@@ -76,18 +83,20 @@ void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<
             most_taper = max(crossing[i] / min(l[i], l[j]), most_taper);
         });
         auto valid = (l[0] > 0.0) & (l[1] > 0.0) & (l[2] > 0.0) & (high < INF);
-        store(valid ? high / low : broadcast<Lanes>(INF), first, count, aspect_ratio);
-        store(valid ? min(most_skew, broadcast<Lanes>(1.0)) : broadcast<Lanes>(1.0), first, count, skew);
-        store(valid ? most_taper : broadcast<Lanes>(INF), first, count, taper);
+        store(of_hexes<Cell>(valid ? high / low : broadcast<Lanes>(INF)), first, count, aspect_ratio);
+        auto skewed = valid ? min(most_skew, broadcast<Lanes>(1.0)) : broadcast<Lanes>(1.0);
+        store(of_hexes<Cell>(skewed), first, count, skew);
+        store(of_hexes<Cell>(valid ? most_taper : broadcast<Lanes>(INF)), first, count, taper);
     });
 }
 
 void corners(Points points, Hexes hexes, std::span<double> shape, std::span<double> condition) {
     expect(have_rows(hexes.size(), shape, condition), "shape and condition: one for each of hexes is expected");
-    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
+    for_each_corners<Lanes>(points, hexes, [&](auto cell, const Corners<Lanes> &x, std::int64_t first, int count) {
+        using Cell = decltype(cell);
         Lanes fullest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(1.0);
-        unroll<8>([&](auto t) {
-            auto s = x.template edges<t>();
+        unroll<Cell::corners>([&](auto t) {
+            auto s = x.template shape<Cell, t>();
             Lanes det = determinant(s);
             Lanes length = sqrt(square(s)), area = sqrt(square(cofactors(s)));  // |S|, |S^-1| det S
             auto valid = (det > 0.0) & (det < INF);
@@ -101,9 +110,11 @@ void corners(Points points, Hexes hexes, std::span<double> shape, std::span<doub
 
 void centre(Points points, Hexes hexes, std::span<double> jacobian) {
     expect(jacobian.size() == hexes.size(), "jacobian: one for each of hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        using Cell = decltype(cell);
         auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
-        store(determinant(M3<Lanes>{axis<0>(x), axis<1>(x), axis<2>(x)}) * (1.0 / 64), first, count, jacobian);
+        Lanes det = determinant(M3<Lanes>{axis<0>(x), axis<1>(x), axis<2>(x)}) * (1.0 / 64);
+        store(of_hexes<Cell>(det), first, count, jacobian);
     });
 }
 

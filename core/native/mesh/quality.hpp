@@ -1,4 +1,4 @@
-// Quality of hexes and whether they are valid, that is, without inverted corner: q(T), (2.8), and q(H), (2.10).
+// Quality of cells and whether they are valid, that is, without inverted corner: q(T), (2.8), and q(H), (2.10).
 //
 // A lane holds one hex where many are evaluated; `SingleHex` holds one corner tetrahedron in each lane.
 #pragma once
@@ -22,16 +22,16 @@ template <class T> struct Quality {
     MaskOf<T> valid;
 };
 
-template <class T> inline Quality<T> quality(const Corners<T> &x) {
+template <class Cell, class T> inline Quality<T> quality(const Corners<T> &x) {
     T total{};
     MaskOf<T> valid = broadcast<T>(0.0) == 0.0;
-    unroll<8>([&](auto t) {
-        auto s = x.template edges<t>();
+    unroll<Cell::corners>([&](auto t) {
+        auto s = x.template shape<Cell, t>();
         T sigma = determinant(s);
         total += quality(s, sigma);
         valid = valid & (sigma > 0.0);
     });
-    return {total * 0.125, valid};
+    return {total * Cell::share, valid};
 }
 
 // One hex, its corners in lanes: corner c in lane c % LANES of register c / LANES.
@@ -102,5 +102,17 @@ class SingleHex {
 
     V3<Lanes> corners_[8 / LANES];
 };
+
+// Of a cell of any kind.
+inline Quality<double> cell_quality(Points points, const Hex &cell) {
+    if (kind_of(cell) == HEXAHEDRON) return SingleHex(points, cell).quality();
+    return with_kind(cell, [&](auto kind) {
+        return quality<decltype(kind)>(gather_corners<double>(points, {&cell, 1}, 0, 1));
+    });
+}
+
+inline bool is_valid(Points points, const Hex &cell) {
+    return kind_of(cell) == HEXAHEDRON ? SingleHex(points, cell).valid() : cell_quality(points, cell).valid;
+}
 
 }  // namespace hexmend

@@ -209,7 +209,8 @@ class BlockBuilder {
 OwnedArray<Node, 27> coarse_blocks(Hexes hexes, Indices start, Indices corners) {
     expect_corners(hexes.size(), start, corners);
     OwnedArray<Node, 27> blocks;
-    if (hexes.empty() || hexes.size() % 8) return blocks;
+    auto is_hex = [](const Hex &row) { return kind_of(row) == HEXAHEDRON; };
+    if (hexes.empty() || hexes.size() % 8 || !std::ranges::all_of(hexes, is_hex)) return blocks;
     HexMesh mesh{hexes, start, corners};
     VertexSearch search(mesh);
     if (!search.find()) return blocks;

@@ -1,22 +1,10 @@
 #include "mesh/incidence.hpp"
 
 #include "mesh/csr.hpp"
+#include "mesh/hex_mesh.hpp"
 
 namespace hexmend {
 namespace {
-
-// The two faces that meet in the edge from each corner to the k-th of its three neighbours.
-constexpr auto SIDES = [] {
-    std::array<std::array<std::array<int, 2>, 3>, 8> sides{};
-    for (int c = 0; c < 8; ++c)
-        for (int k = 0; k < 3; ++k) {
-            int size = 0;
-            for (int f : CORNER_FACES[c])
-                for (int corner : FACES[f])
-                    if (corner == CORNER_TETRAHEDRA[c][k + 1]) sides[c][k][size++] = f;
-        }
-    return sides;
-}();
 
 // An edge in the row of its lower node.
 struct Edge {
@@ -31,17 +19,18 @@ std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, I
                                                                   Neighbours neighbours, std::int64_t max_items) {
     expect_corners(hexes.size(), start, corners);
     expect(neighbours.size() == hexes.size(), "neighbours: a row for each of hexes is expected");
-    CSRBuilder<Edge> rows(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Edge *row) {
+    CSRBuilder<Edge> rows(start.size() - 1, 4 * widest(start) + 1, max_items, [&](std::int64_t i, Edge *row) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s) {
             int h = corners[s] / 8, c = corners[s] % 8;
-            for (int k = 0; k < 3; ++k) {
-                Node j = hexes[h][CORNER_TETRAHEDRA[c][k + 1]];
+            auto &sides = edges_at(hexes[h], c);
+            for (int k = 0; k < sides.count; ++k) {
+                Node j = hexes[h][sides.ends[k]];
                 if (j <= i) continue;
                 Edge *edge = placed(row, size, {j, 0, -1, false}, [](const Edge &e) { return e.end; });
                 edge->valence += edge->last != h;
                 edge->last = h;
-                edge->outside |= neighbours[h][SIDES[c][k][0]] < 0 || neighbours[h][SIDES[c][k][1]] < 0;
+                edge->outside |= neighbours[h][sides.faces[k][0]] < 0 || neighbours[h][sides.faces[k][1]] < 0;
             }
         }
         return size;

@@ -49,6 +49,60 @@ JacobianPolynomial<double, 2> jacobian_polynomial(const std::array<double, 81> &
     return jacobian;
 }
 
+// det J of other cells, by what is sure to have its signs. A tetrahedron has one value. That of a pyramid is, over the
+// square of the height that remains, a polynomial of degree 2 along both directions of the base. That of a wedge is
+// linear over the triangle and of degree 2 along the extrusion: over the square that the triangle's corners and the first
+// of them span it is bilinear, with the same extremes.
+template <class Cell, class T> JacobianPolynomial<T, 1> jacobian_polynomial_of(const Corners<T> &x) {
+    if constexpr (Cell::is_cube) return jacobian_polynomial(x);
+    JacobianPolynomial<T, 1> jacobian(control_points(x));  // its size is that of a hex with all these nodes
+    auto &at = jacobian.coefficients.at;
+    auto fill = [&](auto &&value) {
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k) at[i][j][k] = value(i, j, k);
+    };
+    auto corner = [&](auto t) { return determinant(x.template edges<Cell, t>()); };
+    if constexpr (Cell::corners == 1) {
+        T whole = corner(constant<0>{});
+        fill([&](int, int, int) { return whole; });
+    } else if constexpr (Cell::corners == 4) {
+        // Base edges along u at v = 0, 1, along v at u = 0, 1, and edges to the apex: det [B_u, B_v, A - B].
+        auto &[a, b, c, d, top, p5, p6, p7] = x.at;
+        V3<T> along_u[2] = {b - a, c - d}, along_v[2] = {d - a, c - b}, up[2][2] = {{top - a, top - d}, {top - b, top - c}};
+        T sum[3][3] = {};
+        for (int i = 0; i < 2; ++i)
+            for (int j = 0; j < 2; ++j) {
+                V3<T> normal = cross(along_u[j], along_v[i]);
+                for (int k = 0; k < 2; ++k)
+                    for (int l = 0; l < 2; ++l) sum[i + k][j + l] += dot(normal, up[k][l]);
+            }
+        auto binomials = [](int i) { return i == 1 ? 0.5 : 1.0; };
+        fill([&](int i, int j, int) { return sum[i][j] * (binomials(i) * binomials(j)); });
+        at[0][0][0] = at[0][0][1] = at[0][0][2] = corner(constant<0>{});
+        at[2][0][0] = at[2][0][1] = at[2][0][2] = corner(constant<1>{});
+        at[2][2][0] = at[2][2][1] = at[2][2][2] = corner(constant<2>{});
+        at[0][2][0] = at[0][2][1] = at[0][2][2] = corner(constant<3>{});
+    } else {
+        auto &[a, b, c, d, e, f, p6, p7] = x.at;
+        V3<T> along_u[2] = {b - a, e - d}, along_v[2] = {c - a, f - d}, up[3] = {d - a, e - b, f - c};
+        T first[3] = {corner(constant<0>{}), corner(constant<1>{}), corner(constant<2>{})};
+        T last[3] = {corner(constant<3>{}), corner(constant<4>{}), corner(constant<5>{})};
+        T value[3][3];
+        for (int t = 0; t < 3; ++t) {
+            V3<T> middle = cross(along_u[0], along_v[1]) + cross(along_u[1], along_v[0]);
+            value[t][0] = first[t], value[t][1] = 0.5 * dot(middle, up[t]), value[t][2] = last[t];
+        }
+        constexpr double weights[3][2] = {{1, 0}, {0.5, 0.5}, {0, 1}};  // of a linear function's ends at degree 2
+        fill([&](int i, int j, int k) {
+            T low = weights[i][0] * value[0][k] + weights[i][1] * value[1][k];
+            T high = weights[i][0] * value[2][k] + weights[i][1] * value[0][k];
+            return weights[j][0] * low + weights[j][1] * high;
+        });
+    }
+    return jacobian;
+}
+
 // The coefficients of hex number `lane` of a block.
 template <int n, class T> Box<n> box(const Coefficients<T, n, n, n> &of, int lane) {
     Box<n> whole{{}, 0};
@@ -131,8 +185,8 @@ template <class Body> void for_each_quadratic(QuadraticHexes nodes, const Body &
 
 void certify(Points points, Hexes hexes, std::span<std::uint8_t> validity) {
     expect(validity.size() == hexes.size(), "validity: a number for each of the hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial_of<decltype(cell)>(gather_corners<Lanes>(points, hexes, first, count));
         const Lanes *values = &jacobian.coefficients.at[0][0][0];
         Lanes least = values[0], margin = ROUNDING * jacobian.size;
         for (int i = 1; i < 27; ++i) least = min(values[i], least);
@@ -149,8 +203,8 @@ void certify_quadratic(QuadraticHexes nodes, std::span<std::uint8_t> validity) {
 
 void jacobian_bounds(Points points, Hexes hexes, ArrayView<double, 2> bounds) {
     expect(bounds.size() == hexes.size(), "bounds: a row of each of the hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial_of<decltype(cell)>(gather_corners<Lanes>(points, hexes, first, count));
         for (int i = 0; i < count; ++i) bounds[first + i] = bounds_of(box<3>(jacobian.coefficients, i));
     });
 }
@@ -162,8 +216,8 @@ void jacobian_bounds_quadratic(QuadraticHexes nodes, ArrayView<double, 2> bounds
 
 double least_jacobian(Points points, Hexes hexes) {
     std::vector<double> lowest(hexes.size() / HEXES_PER_CHUNK + 1, 1.0);
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial_of<decltype(cell)>(gather_corners<Lanes>(points, hexes, first, count));
         for (int i = 0; i < count; ++i) lower(lowest[first / HEXES_PER_CHUNK], box<3>(jacobian.coefficients, i));
     });
     return *std::min_element(lowest.begin(), lowest.end());
@@ -178,8 +232,8 @@ double least_jacobian_quadratic(QuadraticHexes nodes) {
 
 void jacobian_coefficients(Points points, Hexes hexes, ArrayView<double, 27> coefficients) {
     expect(coefficients.size() == hexes.size(), "coefficients: a row of each of the hexes is expected");
-    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto jacobian = jacobian_polynomial(gather_corners<Lanes>(points, hexes, first, count));
+    for_each_block<Lanes>(hexes, [&](auto cell, std::int64_t first, int count) {
+        auto jacobian = jacobian_polynomial_of<decltype(cell)>(gather_corners<Lanes>(points, hexes, first, count));
         for (int i = 0; i < count; ++i) coefficients[first + i] = box<3>(jacobian.coefficients, i).coefficients;
     });
 }

@@ -1,4 +1,4 @@
-// Blocks of hexes, one hex in each lane: loading, storing and looping over them.
+// Blocks of cells of one kind, one cell in each lane: loading, storing and looping over them.
 #pragma once
 
 #include "energy/objective_norm.hpp"
@@ -157,7 +157,7 @@ inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners omitt
     else body([](int) { return std::true_type{}; });
 }
 
-// `PowerDerivatives` of each hex of a block.
+// `PowerDerivatives` of each cell of a block.
 template <class T> struct LanePowerDerivatives {
     T first{}, second{};
 
@@ -177,18 +177,40 @@ template <class T> struct LanePowerDerivatives {
     }
 };
 
-// Call body(first, count) for every block of `hexes` hexes, on all threads.
-template <class T, class Body> inline void for_each_block(std::int64_t hexes, const Body &body) {
-    parallel_chunks(hexes, HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t first = begin; first < end; first += width<T>)
-            body(first, static_cast<int>(end - first < width<T> ? end - first : width<T>));
+// Of cells, from the sum of their eta(T): by an eighth of that sum.
+template <class Cell, class T> inline LanePowerDerivatives<T> power_derivatives_of(T sum, double offset, double p) {
+    LanePowerDerivatives<T> by(sum * Cell::share - offset, p);
+    if constexpr (!Cell::is_cube) {
+        by.first = Cell::share_of_eighths * by.first;
+        by.second = (Cell::share_of_eighths * Cell::share_of_eighths) * by.second;
+    }
+    return by;
+}
+
+// The number of rows row(0), row(1), ... that are of one kind: at most `most`, a block's width.
+template <class Row> inline int alike(std::int64_t most, const Row &row) {
+    const CellKind kind = kind_of(row(0));
+    int count = 1;
+    while (count < most && kind_of(row(count)) == kind) ++count;
+    return count;
+}
+
+// Call body(cell, first, count) for every block of cells, on all threads.
+template <class T, class Body> inline void for_each_block(Hexes cells, const Body &body) {
+    parallel_chunks(cells.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        int count = 0;
+        for (std::int64_t first = begin; first < end; first += count) {
+            count = alike(std::min<std::int64_t>(end - first, width<T>),
+                          [&](int i) -> const Hex & { return cells[first + i]; });
+            with_kind(cells[first], [&](auto cell) { body(cell, first, count); });
+        }
     });
 }
 
-// Call body(corners, first, count) for every block of hexes.
-template <class T, class Body> inline void for_each_corners(Points points, Hexes hexes, const Body &body) {
-    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
-        body(gather_corners<T>(points, hexes, first, count), first, count);
+// Call body(cell, corners, first, count) for every block of cells.
+template <class T, class Body> inline void for_each_corners(Points points, Hexes cells, const Body &body) {
+    for_each_block<T>(cells, [&](auto cell, std::int64_t first, int count) {
+        body(cell, gather_corners<T>(points, cells, first, count), first, count);
     });
 }
 

@@ -7,8 +7,8 @@ namespace hexmend {
 
 void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places) {
     expect(places.size() == hexes.size(), "places: a row for each of hexes is expected");
-    for_each_corners<Lanes>(points, hexes, [&](const Corners<Lanes> &x, std::int64_t first, int count) {
-        store(element_step(x, s, rho), first, count, places);
+    for_each_corners<Lanes>(points, hexes, [&](auto cell, const Corners<Lanes> &x, std::int64_t first, int count) {
+        store(element_step<decltype(cell)>(x, s, rho), first, count, places);
     });
 }
 
@@ -61,7 +61,7 @@ std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> val
                 int h = corner / 8;
                 if (hex_round[h] == round || !valid[h]) continue;
                 hex_round[h] = round;
-                if (!SingleHex(moved, hexes[h]).valid()) queue.push_back(h);
+                if (!is_valid(moved, hexes[h])) queue.push_back(h);
             }
     }
     return relaxed;

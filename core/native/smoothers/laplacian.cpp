@@ -50,8 +50,8 @@ template <bool quality> class Guard {
 
     // Not inlined, so that an unmoved hex gets the same bits from each call.
     __attribute__((noinline)) Quality<double> measured(std::int64_t h) const {
-        const SingleHex hex(points_, mesh_.hexes[h]);
-        return quality ? hex.quality() : Quality<double>{0, hex.valid()};
+        const Hex &cell = mesh_.hexes[h];
+        return quality ? cell_quality(points_, cell) : Quality<double>{0, is_valid(points_, cell)};
     }
 };
 

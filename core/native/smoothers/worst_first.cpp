@@ -72,10 +72,13 @@ std::int64_t worst_first_sweep(std::span<Point> points, const HexMesh &mesh, std
 
     for (std::size_t step = 0; step < candidates.size(); ++step) {
         const auto h = queue[1];
-        auto y = element_step(gather_corners<double>(points, hexes, h, 1), settings.scaling, settings.relaxation);
+        auto y = with_kind(hexes[h], [&](auto cell) {
+            auto x = gather_corners<double>(points, hexes, h, 1);
+            return element_step<decltype(cell)>(x, settings.scaling, settings.relaxation);
+        });
         const std::size_t moved_before = moves.size();
         touched.clear();
-        for (int c = 0; c < 8; ++c) {
+        for (int c = 0; c < table_of(hexes[h]).nodes; ++c) {
             Node i = hexes[h][c];
             if (!free[i]) continue;
             moves.push_back({i, points[i]});
@@ -93,7 +96,7 @@ std::int64_t worst_first_sweep(std::span<Point> points, const HexMesh &mesh, std
             for (Node i : hexes[g]) prefetch(&points[i]);
         bool harm = false;
         for (std::size_t r = 0; r < touched.size() && !harm; ++r) {
-            after[r] = SingleHex(points, hexes[touched[r]]).quality();
+            after[r] = cell_quality(points, hexes[touched[r]]);
             harm = valid[touched[r]] && !after[r].valid;
         }
         if (harm) {

@@ -33,7 +33,7 @@ void bind_barrier(nb::module_ m) {
 OwnedArray<double, 3> one_element_step(Points corners, double s, double rho) {
     constexpr Hex ALL_EIGHT[] = {{0, 1, 2, 3, 4, 5, 6, 7}};
     expect(corners.size() == 8, "corners: 8 points are expected");
-    auto y = element_step(gather_corners<double>(corners, ALL_EIGHT, 0, 1), s, rho);
+    auto y = element_step<Hexahedron>(gather_corners<double>(corners, ALL_EIGHT, 0, 1), s, rho);
     std::vector<double> targets(24);
     std::memcpy(targets.data(), &y, sizeof y);
     return {std::move(targets)};

@@ -14,12 +14,13 @@ Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask ke
     std::vector<Node> place(nodes, -1);  // position of a node among those used
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!keep[h]) continue;
-        for (int f = 0; f < 6; ++f) {
+        const auto &table = table_of(hexes[h]);
+        for (int f = 0; f < table.faces; ++f) {
             Node behind = neighbours[h][f];
             if (behind >= 0 && keep[behind]) continue;
             std::array<Node, 4> quad;
             for (int k = 0; k < 4; ++k) {
-                Node node = hexes[h][FACES[f][k]];
+                Node node = hexes[h][table.face_nodes[f][k]];
                 if (place[node] < 0) {
                     place[node] = static_cast<Node>(used.values.size());
                     used.values.push_back(node);

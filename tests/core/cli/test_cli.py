@@ -9,10 +9,12 @@ import pytest
 from hexmend import METHODS, Recipe, Stage, StoppingCriteria, gallery, io, read_recipe, smooth, summarise, write_recipe
 from hexmend.cli.main import commands, main
 from hexmend.quality import METRICS, metric_statistics
+from tests.core.grids import scrambled
+from tests.core.solid_lattices import mixed
 
 SUMMARY = [
     "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "invalid", "min_jacobian", "q_min", "q_mean",
-    "q_max", "q_std", "q_norm", "scaled_jacobian_min", "objective",
+    "q_max", "q_std", "q_norm", "scaled_jacobian_min", "objective", "cells",
 ]  # fmt: skip
 
 
@@ -234,3 +236,16 @@ def test_a_misspelt_name_of_a_recipe_has_a_hint(mesh, capsys):
     error = capsys.readouterr().err
     assert "Did you mean gentle?" in error
     assert all(path.stem in error for path in SHIPPED)
+
+
+def test_cells_of_all_kinds_are_counted_and_called_cells(tmp_path, run_command):
+    path, out = tmp_path / "mixed.vtu", tmp_path / "out.vtu"
+    io.write(path, scrambled(mixed(3), 0.1))
+    text = run_command("info", path).out
+    assert all(f"  {kind} " in text for kind in ("hexahedron", "wedge", "pyramid", "tetrahedron"))
+    assert "no cell is invalid" in text
+    assert "no cell is invalid" in run_command("smooth", path, "-o", out, "--method", "local-sd").out
+    cells = json.loads(run_command("info", out, "--json").out)["cells"]
+    assert {kind: one["count"] for kind, one in cells.items()} == {
+        "hexahedron": 12, "wedge": 18, "pyramid": 30, "tetrahedron": 12,
+    }  # fmt: skip

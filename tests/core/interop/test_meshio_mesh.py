@@ -76,11 +76,16 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file():
         blocks(("tetra", CUBE.hexes[:2, [0, 1, 3, 4]]), ("polygon", [[0, 1, 2, 3, 4]]), ("hexahedron", CUBE.hexes[5:]))
     )
     assert mesh.n_hexes == 22
-    assert mesh.pinned[CUBE.hexes[:2, [0, 1, 3, 4]]].all()
-    assert mesh.notes == (
-        "Not read: 1 cell of another kind (type polygon).",
-        "2 tetra cells next to the hexes are kept, and their nodes are fixed.",
-    )
+    assert mesh.pinned is None
+    assert mesh.n_elements == 24
+    assert mesh.notes == ("Not read: 1 cell of another kind (type polygon).",)
+
+
+def test_a_mesh_without_hexes_is_accepted_if_it_has_other_solid_cells():
+    mesh = hx.from_meshio(blocks(("tetra", [[0, 1, 3, 9], [1, 3, 9, 12]])))
+    assert [mesh.n_hexes, mesh.n_elements] == [0, 2]
+    assert mesh.notes == ("The mesh has no hexes, for which Hexmend is made, but 2 tetra cells.",)
+    assert sorted(hx.to_meshio(mesh).cells_dict) == ["tetra"]
 
 
 def test_physical_groups_of_gmsh_are_sets():
@@ -96,7 +101,7 @@ def test_physical_groups_of_gmsh_are_sets():
 
 
 @pytest.mark.parametrize(("other", "words"), [
-    (blocks(("tetra", [[0, 1, 2, 3]])), "meshio mesh: holds no hexahedra, but 1 tetra cell."),
+    (blocks(("triangle", [[0, 1, 2]])), "meshio mesh: holds no hexahedra, but 1 triangle cell."),
     (blocks(("VTK_LAGRANGE_HEXAHEDRON", [range(27)])), "but 1 cell of type VTK_LAGRANGE_HEXAHEDRON."),
     (blocks(), "meshio mesh: holds no hexahedra."),
     (blocks(("hexahedron", [[0, 1, 2, 3, 4, 5, 6, 900]])), "900"),

@@ -74,6 +74,7 @@ def test_hexes_behind_faces_are_those_with_the_same_nodes():
 @given(st.integers(1, 8), st.integers(2, 12), st.integers(0, 2**32 - 1))
 def test_faces_of_collapsed_hexes_are_paired_by_their_nodes(m, n, seed):
     hexes = np.random.default_rng(seed).integers(n, size=(m, 8), dtype=np.int32)
+    hexes = hexes[hexes[:, 5] != hexes[:, 7]]  # three equal nodes at the end: a cell of another kind
     topology = Topology(hexes, n)
     faces = [tuple(sorted(face)) for h in hexes for face in h[FACES].tolist()]
     orders = hexes[:, FACES].reshape(-1, 4).tolist()

@@ -54,12 +54,14 @@ def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:
     skin = skin_faces(mesh)
     sides_ahead = np.stack([boundary.faces, np.roll(boundary.faces, -1, axis=1)], axis=-1)
     on_curve = np.isin(edge_keys(sides_ahead, mesh.n_nodes), edge_keys(boundary.segments, mesh.n_nodes))
-    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.node_class[boundary.faces] == NodeClass.CURVE)
+    before = np.roll(on_curve, 1, axis=1)
+    before[:, 3] |= on_curve[:, 1] & (boundary.faces[:, 2] == boundary.faces[:, 3])  # a triangle's last corner
+    at = on_curve & before & (boundary.node_class[boundary.faces] == NodeClass.CURVE)
     face, place = np.nonzero(at)
     nodes, open_ = boundary.faces[face, place], np.zeros(face.size, dtype=bool)
     for hexes in skin.hexes[face].T:  # an interface has a hex on both sides
         there = np.flatnonzero(hexes >= 0)
-        sigma = corner_determinants(mesh.points, mesh.hexes, hexes[there])
-        corner = (mesh.hexes[hexes[there]] == nodes[there, None]).argmax(axis=1)
+        sigma = corner_determinants(mesh.points, mesh.elements, hexes[there])
+        corner = (mesh.elements[hexes[there]] == nodes[there, None]).argmax(axis=1)
         open_[there] |= sigma[np.arange(there.size), corner] > 0
     return np.unique(nodes[open_])

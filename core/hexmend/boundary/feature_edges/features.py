@@ -151,7 +151,7 @@ def marked_edges(mesh: Mesh) -> np.ndarray:
     """
     found = [edges_between_sets(mesh), marked_segments(mesh)]
     for cells in mesh.cells:
-        if cells.kind == "quad" and "medit:ref" in cells.data:
+        if cells.kind in ("quad", "triangle") and "medit:ref" in cells.data:
             edges, side = SurfaceEdges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
             found.append(edges.nodes[side[edges.neighbours[:, 0]] != side[edges.neighbours[:, 1]]])
     return np.concatenate(found)

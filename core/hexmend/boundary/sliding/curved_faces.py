@@ -28,7 +28,8 @@ def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> P
     """Return the surface of a boundary: of its faces, or of the parts of curved ones.
 
     All edges have as many divisions as the most curved one needs, fewer where there are many faces. Nothing is divided,
-    and nodes slide on triangles between the corners, if a face has collapsed (two of its corners are one node).
+    and nodes slide on triangles between the corners, if a face has collapsed (two of its corners are one node), and in
+    a mesh with other cells than hexes.
 
     Parameters
     ----------
@@ -43,9 +44,10 @@ def surface_of_boundary(mesh: Mesh, points: np.ndarray, boundary: Boundary) -> P
     PartitionedSurface
     """
     faces, n = boundary.faces, len(points)
-    if mesh.mid_nodes is None or (np.diff(np.sort(faces, axis=1), axis=1) == 0).any():
+    only_hexes = mesh.n_hexes == mesh.n_elements
+    if mesh.mid_nodes is None or not only_hexes or (np.diff(np.sort(faces, axis=1), axis=1) == 0).any():
         return PartitionedSurface(points, boundary)
-    mids = face_mid_nodes(mesh.hexes, mesh.mid_nodes, skin_faces(mesh).hexes[:, 0], faces)
+    mids = face_mid_nodes(mesh.elements, mesh.mid_nodes, skin_faces(mesh).hexes[:, 0], faces)
     nodes = quad_nodes(points, faces, mids)
     ends, after = nodes[:, :4], nodes[:, [1, 2, 3, 0]]
     sagitta = np.linalg.norm(nodes[:, 4:8] - (ends + after) / 2, axis=2)

@@ -8,8 +8,8 @@ from hexmend.arrays import mask
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.sliding.flat_parts import flat_parts
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import corner_tetrahedra
 from hexmend.quality import corner_determinants
 
 
@@ -40,10 +40,10 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: FeatureAngle
 def _stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Find those of some hexes (k,) at points (n, 3) that have a corner which stays inverted wherever nodes slide."""
     mesh = sliding.mesh
-    tetrahedra = mesh.hexes[hexes][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
+    tetrahedra = corner_tetrahedra(mesh.elements[hexes])  # (k, 8, 4)
     blocked = mesh.fixed[tetrahedra].all(axis=2)
     for part in flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length):
         most = part.directions.shape[1] + 1  # nodes of a valid tetrahedron on a plane, and on a line
         blocked |= mask(part.nodes, mesh.n_nodes)[tetrahedra].sum(axis=2) > most
-    inverted = ~(corner_determinants(points, mesh.hexes, hexes) > 0)
+    inverted = ~(corner_determinants(points, mesh.elements, hexes) > 0)
     return (blocked & inverted).any(axis=1)

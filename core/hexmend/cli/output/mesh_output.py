@@ -48,7 +48,7 @@ def print_losses(path: str, parts: Iterable[str]) -> None:
 
 def print_problems(path: str, mesh: Mesh) -> None:
     """Print what the doctor finds in a mesh with inverted or overlapping hexes: smoothing does not correct them."""
-    if not (measure(mesh.points, mesh.hexes).n_inverted or mesh.topology.n_nonmanifold_faces):
+    if not (measure(mesh.points, mesh.elements).n_inverted or mesh.topology.n_nonmanifold_faces):
         return
     for finding in examine(mesh):
         remedy = f"Run: hexmend repair {path} -o OUT --only {finding.kind}" if finding.mendable else finding.remedy

@@ -54,6 +54,21 @@ def print_summaries(
     print_columns(["", *heads] if len(heads) > 1 else None, rows)
 
 
+def print_kinds(cells: Mapping[str, Mapping[str, float | int]]) -> None:
+    """Print a row for each kind of cells of `Summary.cells`; nothing for a mesh of hexes alone."""
+    if set(cells) == {"hexahedron"}:
+        return
+    rows = [
+        [
+            kind,
+            *(format_count(one[key]) for key in ("count", "inverted", "invalid")),
+            *(format_quality(one[key]) for key in ("q_min", "q_mean", "scaled_jacobian_min")),
+        ]
+        for kind, one in cells.items()
+    ]
+    print_columns(["Cells", "Number", "Inverted", "Invalid", "q min", "q mean", "Scaled Jacobian min"], rows)
+
+
 def print_spreads(spreads: Mapping[str, MetricStatistics]) -> None:
     """Print the range of every metric, and how many hexes have values outside the acceptable ones."""
     rows = []

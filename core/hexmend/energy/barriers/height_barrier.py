@@ -10,7 +10,7 @@ from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.barriers.corner_heights import corner_heights, height_gradients
 from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.kernels.target import TargetMatrices
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.solid_cells import corner_tetrahedra, rows_by_kind
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class HeightBarrier:
 
     def _positions(self, x: np.ndarray, hexes: np.ndarray | slice = slice(None)) -> np.ndarray:
         """Heights above the floor in bands, (k, 8, 3)."""
-        corners = self.hexes[hexes][:, CORNER_TETRAHEDRA].reshape(-1, 4)
+        corners = corner_tetrahedra(self.hexes[hexes]).reshape(-1, 4)
         return (corner_heights(x, corners).reshape(-1, 8, 3) / self.unit - self.floor) / self.band
 
     def _derivatives(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -73,9 +73,12 @@ class HeightBarrier:
         near = np.flatnonzero((least < 1).any(axis=(1, 2)))
         z = np.minimum(least[near].reshape(-1, 24), 1.0)
         first, second = self.weight / self.band * (2 - z - 1 / z), self.weight / self.band**2 * (1 / z**2 - 1)
-        corners = self.hexes[near][:, CORNER_TETRAHEDRA].reshape(-1, 4)
+        corners = corner_tetrahedra(self.hexes[near]).reshape(-1, 4)
         slopes = height_gradients(x, corners)[1].reshape(-1, 8, 3, 4, 3) / self.unit
         by_nodes = np.zeros((len(near), 8, 3, 8, 3))
-        for corner, nodes in enumerate(CORNER_TETRAHEDRA):
-            by_nodes[:, corner][:, :, nodes] = slopes[:, corner]
+        for kind, rows in rows_by_kind(self.hexes[near]):
+            own = by_nodes[rows]
+            for corner, nodes in enumerate(kind.corners):
+                own[:, corner][:, :, nodes] = slopes[rows, corner]
+            by_nodes[rows] = own
         return near, first, second, by_nodes.reshape(-1, 24, 8, 3)

@@ -91,7 +91,7 @@ class HessianReduction:
         """The order of independent nodes: hexes use the master of each tied node."""
         motion, mesh = self._motion, self._motion.mesh
         fixed = ~mask(motion.nodes, mesh.n_nodes)
-        return BlockSparsity(Mesh(mesh.points, motion.root[mesh.hexes]).with_fixed(fixed))
+        return BlockSparsity(Mesh(mesh.points, motion.root[mesh.elements]).with_fixed(fixed))
 
     def _merged(self, full: AssembledHessian, rows: np.ndarray) -> AssembledHessian:
         """Sum the blocks of tied nodes and of their masters; `rows` (k,) is `Motion.row`."""

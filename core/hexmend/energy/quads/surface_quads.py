@@ -15,7 +15,8 @@ from hexmend.energy.quads.quad_energy import QuadCorners
 from hexmend.energy.quads.surface_term import SurfaceTerm
 from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
-from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.solid_cells import SOLID_KINDS, WEDGE, cell_faces, kinds_of
 
 #: Unit normals shorter than this are those of a surface so small that numbers underflow.
 _LEAST_NORMAL = 0.5
@@ -65,7 +66,7 @@ class SurfaceQuads:
         self.norm, self.weight, self.unit = norm, weight, mesh.mean_edge_length or 1.0
         self._normals = QuadNormals(sliding)
         lengths = wanted_lengths(mesh)
-        scales = _scales(mesh.hexes, quads, lengths, self.unit)
+        scales = _scales(mesh.elements, quads, lengths, self.unit)
         counted, normals = _counted_corners(sliding), np.zeros((len(quads), 3))
         self._term = SurfaceTerm(
             quads, counted, normals, scales, weight, 0.0, ElementBlocks(quads), lengths is not None
@@ -112,13 +113,14 @@ class SurfaceQuads:
 
 
 def _counted_corners(sliding: SlidingBoundary) -> np.ndarray:
-    """Mark the corners of boundary quads whose shape sliding nodes can change, (f, 4) bool."""
+    """Mark the corners of boundary quads whose shape sliding nodes can change, (f, 4) bool; none of triangles."""
     faces, free = sliding.boundary.faces, sliding.mesh.free[sliding.boundary.faces]
     n, segments = sliding.mesh.n_nodes, np.sort(sliding.boundary.segments.astype(np.int64), axis=1)
     sides = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).astype(np.int64), axis=2)
     on_curve = np.isin(sides[:, :, 0] * n + sides[:, :, 1], segments[:, 0] * n + segments[:, 1])
     moves = free | np.roll(free, -1, axis=1) | np.roll(free, 1, axis=1)
-    return moves & ~(on_curve & np.roll(on_curve, 1, axis=1))
+    is_quad = faces[:, 2] != faces[:, 3]
+    return moves & ~(on_curve & np.roll(on_curve, 1, axis=1)) & is_quad[:, None]
 
 
 def _scales(hexes: np.ndarray, quads: np.ndarray, lengths: np.ndarray | None, unit: float) -> np.ndarray:
@@ -139,13 +141,16 @@ def _scales(hexes: np.ndarray, quads: np.ndarray, lengths: np.ndarray | None, un
     """
     if lengths is None:
         return np.ones((2, len(quads), 4))
-    corners = np.sort(hexes[:, FACES].reshape(-1, 4), axis=1)
+    corners = np.sort(cell_faces(hexes).reshape(-1, 4), axis=1)
     _, number = np.unique(np.concatenate([corners, np.sort(quads, axis=1)]), axis=0, return_inverse=True)
     number = number.ravel()
     face_of = np.empty(number.max(initial=-1) + 1, dtype=np.int64)
     face_of[number[: len(corners)]] = np.arange(len(corners))
-    hex_of = face_of[number[len(corners) :]] // len(FACES)
+    hex_of = face_of[number[len(corners) :]] // 6
     local = (hexes[hex_of][:, None, :] == quads[:, :, None]).argmax(axis=2)  # corner of the hex, (f, 4)
-    along = np.abs(UNIT_CUBE[np.roll(local, -1, axis=1)] - UNIT_CUBE[local]).argmax(axis=2)
+    after = np.roll(local, -1, axis=1)
+    along = np.abs(UNIT_CUBE[after] - UNIT_CUBE[local]).argmax(axis=2)
+    kinds, upright = kinds_of(hexes[hex_of])[:, None], np.abs(after - local) == 3  # edges between a wedge's triangles
+    along = np.where(kinds == 0, along, np.where((SOLID_KINDS.index(WEDGE) == kinds) & upright, 2, 0))
     to_next = unit / lengths[hex_of[:, None], along]
     return np.stack([to_next, np.roll(to_next, 1, axis=1)])

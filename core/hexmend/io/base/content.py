@@ -63,10 +63,6 @@ def from_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[in
 
 
 #: Ways to a mesh that can be read.
-_SPLIT = (
-    "Let the mesher make hexahedra; Gmsh divides tetrahedra into them: "
-    "gmsh MODEL -3 -setnumber Mesh.SubdivisionAlgorithm 2."
-)
 _ORDERS = "Write it with elements of order 1 or 2; Gmsh does: gmsh MODEL -3 -order 2."
 
 #: True while a file is read whose nodes without finite coordinates are to be interpolated.
@@ -179,8 +175,6 @@ class Content:
 def to_mesh(path: Path, content: Content) -> Mesh:
     """Make a mesh of a file's content.
 
-    Nodes of tetrahedra, pyramids and wedges are pinned, and a note says so.
-
     Parameters
     ----------
     path : Path
@@ -194,15 +188,16 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     Raises
     ------
     FileError
-        Where there are no hexes: it lists the other cells.
+        Where there are no solid cells: it lists the other cells.
     MeshError
         From `Mesh`.
     """
     hexes = [block for block in content.blocks if block.kind in HEX_KINDS and len(block)]
     others = [block for block in content.blocks if block.kind not in HEX_KINDS and len(block)]
-    if not hexes:
+    solids = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
+    if not hexes and not solids:
         found = f", but {_inventory(others, content.unread)}" if others or content.unread else ""
-        remedy = _SPLIT if {block.kind for block in others} >= {"tetra"} else "Hexmend works on hexahedral meshes only."
+        remedy = "Hexmend works on meshes of solid cells, above all hexes."
         remedy = _ORDERS if any("of order" in kind for kind in content.unread) else remedy
         raise FileError(path, f"holds no hexahedra{found}", remedy)
     for block in content.blocks:
@@ -212,14 +207,11 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     if INTERPOLATE_MISSING.get() and not np.isfinite(points).all():
         points, note = interpolate_missing(points, [block.nodes for block in hexes])
         notes.append(note)
+    if not hexes:
+        notes.append(f"The mesh has no hexes, for which Hexmend is made, but {_inventory(solids)}.")
     pinned = content.pinned if content.pinned is not None else find_marks(content.node_data)[1]
-    volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
-    if volumes:
-        notes.append(f"{_inventory(volumes)} next to the hexes are kept, and their nodes are fixed.")
-        pinned = np.zeros(len(content.points), bool) if pinned is None else pinned.copy()
-        for block in volumes:
-            pinned[block.nodes] = True
     lengths, corners = [len(block) for block in hexes], [block.nodes[:, :8] for block in hexes]
+    corners = corners or [np.empty((0, 8), np.int32)]
     return Mesh(
         as_immutable_owned(as_points(points)),
         as_immutable_owned(as_hexes(corners[0] if len(corners) == 1 else np.concatenate(corners), len(points))),
@@ -238,7 +230,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
 
 def from_mesh(mesh: Mesh) -> Content:
     """Make the content of a file that holds a mesh: blocks of hexes by their number of nodes, then other cells."""
-    blocks, hexes = zip(*hex_blocks(mesh), strict=True)
+    blocks, hexes = zip(*hex_blocks(mesh), strict=True) if mesh.n_hexes else ((), (np.empty(0, np.int64),))
     new_index = np.argsort(np.concatenate(hexes))  # of each hex of the mesh, counted through the blocks
     sides = {name: np.asarray(rows, np.int64).reshape(-1, 2) for name, rows in mesh.side_sets.items()}
     sides = {name: np.column_stack([new_index[rows[:, 0]], rows[:, 1]]) for name, rows in sides.items()}
@@ -329,7 +321,7 @@ def concatenate_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) 
 
 def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
     """Mid-nodes of all hexes, (m, 19) int32, -1 where a hex has fewer; None if no hex has any."""
-    if all(block.kind == "hex" for block in hexes):
+    if all(block.kind == "hex" for block in hexes):  # or there are none
         return None
     missing = [((0, 0), (0, 27 - block.nodes.shape[1])) for block in hexes]
     rows = [block.nodes[:, 8:].astype(np.int32) for block in hexes]

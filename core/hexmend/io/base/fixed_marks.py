@@ -39,16 +39,12 @@ def needs_marks(mesh: Mesh, marks: np.ndarray | None = None) -> bool:
     ----------
     mesh : Mesh
     marks : (n,) bool, optional
-        Nodes that the file marks in any case. Readers pin nodes of tetrahedra, pyramids and wedges without a mark.
+        Nodes that the file marks in any case.
     """
     if mesh.pinned is None:
         return False
     marked = np.zeros(mesh.n_nodes, bool) if marks is None else np.array(marks, bool)
-    unpinned_by_cells = np.ones(mesh.n_nodes, bool)
-    for cells in mesh.cells:
-        if cells.dimension == 3:
-            unpinned_by_cells[cells.nodes] = False
-    return not np.array_equal(marked[unpinned_by_cells], mesh.pinned[unpinned_by_cells])
+    return not np.array_equal(marked, mesh.pinned)
 
 
 def redundant_marks(mesh: Mesh) -> str | None:

@@ -10,6 +10,7 @@ from hexmend.arrays import mask
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import solid_blocks
 from hexmend.parameters import suggestion
 
 
@@ -40,7 +41,9 @@ def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     if name in mesh.node_sets:
         return np.asarray(mesh.node_sets[name])
     if name in mesh.hex_sets:
-        return np.unique(mesh.hexes[mesh.hex_sets[name]])
+        of_hexes = mesh.hexes[mesh.hex_sets[name]].ravel()
+        others = [cells.nodes[cells.sets[name]].ravel() for cells in solid_blocks(mesh.cells) if name in cells.sets]
+        return np.unique(np.concatenate([of_hexes, *others]))
     if name in mesh.side_sets:
         rows = np.asarray(mesh.side_sets[name])
         return np.unique(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]])
@@ -61,7 +64,7 @@ def unknown_set(name: str, names: Sequence[str], kind: str = "set") -> MeshError
 
 
 def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
-    """Mark the boundary faces of each side set, set of quads, and node set that holds all four nodes of a face.
+    """Mark the boundary faces of each side set, set of quads or triangles, and node set that holds a face's nodes.
 
     Parameters
     ----------
@@ -75,7 +78,7 @@ def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
     faces, found = mesh.topology.boundary_faces, {}
     if mesh.side_sets:
         hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
-        number = np.full((mesh.n_hexes, 6), len(faces))
+        number = np.full((mesh.n_elements, 6), len(faces))
         number[hexes, sides] = np.arange(len(faces))
         for name, rows in mesh.side_sets.items():
             marks = np.zeros(len(faces) + 1, dtype=bool)
@@ -83,10 +86,17 @@ def boundary_faces_in_sets(mesh: Mesh) -> dict[str, np.ndarray]:
             found[f"side set {name}"] = marks[:-1]
     weights = np.random.default_rng(0).integers(1, 2**62, mesh.n_nodes if mesh.cells else 0)
     for cells in mesh.cells:
-        if cells.kind == "quad" and cells.sets:
-            keys, own = (weights[nodes].sum(axis=1) for nodes in (faces, cells.nodes))  # overflow does no harm
+        if cells.kind in ("quad", "triangle") and cells.sets:
+            nodes = cells.nodes if cells.kind == "quad" else cells.nodes[:, [0, 1, 2, 2]]
+            keys, own = (_keys(weights, of) for of in (faces, nodes))
             for name, rows in cells.sets.items():
                 found[f"quads {name}"] = np.isin(keys, own[rows])
     for name, nodes in mesh.node_sets.items():
         found[f"node set {name}"] = mask(nodes, mesh.n_nodes)[faces].all(axis=1)
     return {name: marks for name, marks in found.items() if marks.any() and not marks.all()}
+
+
+def _keys(weights: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Sums of the weights (n,) of the nodes of faces (k, 4), the last of which a triangle repeats, (k,) int64."""
+    of_nodes = weights[faces]  # overflow does no harm
+    return of_nodes[:, :3].sum(axis=1) + np.where(faces[:, 2] == faces[:, 3], 0, of_nodes[:, 3])

@@ -70,7 +70,7 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
         if distance.max() <= MATCH_TOLERANCE * mesh.mean_edge_length:
             break
     rotation, partner, distance = min(fits, key=lambda fit: fit[2].max())
-    near = shortest_edges(mesh.points, mesh.hexes)[nodes]
+    near = shortest_edges(mesh.points, mesh.elements)[nodes]
     far = distance - MATCH_TOLERANCE * np.where(np.isfinite(near), near, mesh.mean_edge_length)
     if far.max() > 0 or np.unique(partner).size < partner.size:
         at = int(far.argmax()) if far.max() > 0 else int(np.flatnonzero(np.bincount(partner)[partner] > 1)[0])

@@ -14,6 +14,7 @@ from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.periodic_sets import smallest_rotation
+from hexmend.mesh.solid_cells import face_nodes
 
 #: Types of side sets between which a mesh is one layer thick.
 EMPTY, WEDGE = "empty", "wedge"
@@ -86,8 +87,8 @@ def flat_sides(mesh: Mesh) -> np.ndarray:
 
 
 def _side_of_faces(mesh: Mesh, types: tuple[str, ...]) -> np.ndarray:
-    """Index of the side set of some types to which each face of a hex belongs, -1 for none; (m, 6) int64."""
-    side = np.full((mesh.n_hexes, 6), -1)
+    """Index of the side set of some types to which each face of a cell belongs, -1 for none; (m, 6) int64."""
+    side = np.full((mesh.n_elements, 6), -1)
     for k, (name, rows) in enumerate(mesh.side_sets.items()):
         if mesh.side_set_types.get(name) in types and len(rows):
             side[rows[:, 0], rows[:, 1]] = k
@@ -108,8 +109,8 @@ def _with_opposite(mesh: Mesh, side: np.ndarray) -> np.ndarray:
 
 def _nodes_of_other_faces(mesh: Mesh, side: np.ndarray) -> np.ndarray:
     """Mark the nodes of faces of the boundary that are not on flat sides, (n,) bool."""
-    hexes, rows = np.nonzero((mesh.topology.face_neighbours < 0) & (side < 0))
-    return mask(mesh.hexes[hexes[:, None], FACES[rows]].ravel(), mesh.n_nodes)
+    cells, rows = np.nonzero((mesh.topology.face_neighbours < 0) & (side < 0))
+    return mask(face_nodes(mesh.elements, cells, rows).ravel(), mesh.n_nodes)
 
 
 def _pairs(mesh: Mesh, side: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:

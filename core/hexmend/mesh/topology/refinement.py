@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.arrays import index_of, mask
 from hexmend.kernels import structure
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.mesh.topology.topology import Topology
 
 #: Place of node (x, y, z) among the 27 of a coarse hex, x, y, z in 0, 1, 2.
@@ -83,5 +84,7 @@ def find_refinement(topology: Topology) -> Refinement | None:
     True
     """
     corners = topology.node_corners
-    blocks = structure.coarse_blocks(topology.hexes, corners.start, corners.items)
+    if kinds_of(topology.elements).any():
+        return None
+    blocks = structure.coarse_blocks(topology.elements, corners.start, corners.items)
     return Refinement(blocks, topology.n) if len(blocks) else None

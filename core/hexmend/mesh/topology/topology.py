@@ -12,10 +12,11 @@ from hexmend.arrays import as_immutable, mask
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_error
+from hexmend.mesh.solid_cells import face_nodes, kinds_of
 from hexmend.mesh.topology.components import components
 from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.split_faces import close_split_faces
 from hexmend.mesh.validation import as_bools, as_hexes
 from hexmend.parameters import Parameter
 
@@ -55,38 +56,49 @@ class CSR:
 
 
 class Topology:
-    """Incidences of nodes, edges, faces and hexes of a mesh.
+    """Incidences of nodes, edges, faces and cells of a mesh.
 
     Parameters
     ----------
-    hexes : (m, 8) int32
-        Corner nodes, numbered as in `hexmend.mesh.hexahedron`; copied unless immutable.
+    elements : (m, 8) int32
+        Nodes of hexes and other cells, numbered as in `hexmend.mesh.solid_cells`; copied unless immutable.
     n : int
-        Number of nodes, used by a hex or not.
+        Number of nodes, used by a cell or not.
+    n_hexes : int, optional
+        Number of the first rows that are the mesh's hexes; all by default.
+
+    Attributes
+    ----------
+    hexes : (n_hexes, 8) int32
+        These rows; `elements` itself if they are all.
 
     Raises
     ------
     MeshError
-        If the hexes are not (m, 8) whole numbers from 0 to n - 1.
+        If the rows are not (m, 8) whole numbers from 0 to n - 1.
     """
 
-    def __init__(self, hexes: np.ndarray, n: int):
-        self.hexes = as_immutable(as_hexes(hexes, n))
+    def __init__(self, elements: np.ndarray, n: int, n_hexes: int | None = None):
         self.n = n
+        self._set_elements(as_hexes(elements, n), len(elements) if n_hexes is None else n_hexes)
+
+    def _set_elements(self, elements: np.ndarray, n_hexes: int) -> None:
+        self.elements = as_immutable(elements)
+        self.hexes = self.elements if n_hexes == len(elements) else self.elements[:n_hexes]
 
     def __setstate__(self, state: Mapping[str, object]) -> None:
         self.__dict__.update(state)
-        self.hexes = as_immutable(self.hexes)  # arrays that come out of a pickle are writable
+        self._set_elements(self.elements, len(self.hexes))  # arrays that come out of a pickle are writable
 
     @cached_property
     def node_corners(self) -> CSR:
         """Hex corners at each node; items are 8 * hex + corner."""
-        return CSR(*incidence.node_corners(self.hexes, self.n))
+        return CSR(*incidence.node_corners(self.elements, self.n))
 
     @property
     def _corners_of_nodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The hexes, and the corners at each node as two arrays, as kernels take them."""
-        return self.hexes, self.node_corners.start, self.node_corners.items
+        return self.elements, self.node_corners.start, self.node_corners.items
 
     @cached_property
     def overlapping_corners(self) -> CSR:
@@ -105,23 +117,37 @@ class Topology:
     @cached_property
     def used(self) -> np.ndarray:
         """True for each node that a hex uses, (n,) bool."""
-        return mask(self.hexes.ravel(), self.n)
+        return mask(self.elements.ravel(), self.n)
 
     @cached_property
     def _faces(self) -> tuple[np.ndarray, int]:
-        return incidence.face_neighbours(*self._corners_of_nodes)
+        neighbours, nonmanifold = incidence.face_neighbours(*self._corners_of_nodes)
+        return close_split_faces(self.elements, neighbours), nonmanifold
 
     @property
     def face_neighbours(self) -> np.ndarray:
-        """Neighbour across each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
+        """Neighbour across each face of `hexmend.mesh.solid_cells.SolidKind.faces`, (m, 6) int32.
+
+        -1 on the boundary; the cell itself for a face that its kind does not have, and for a quad that two triangles
+        cover.
+        """
         return self._faces[0]
 
     @property
+    def hex_neighbours(self) -> np.ndarray:
+        """Hex across each face of the hexes, -1 where there is none, (n_hexes, 6) int32."""
+        return self._among_hexes(self.face_neighbours)
+
+    @property
     def neighbours_in_any_order(self) -> np.ndarray:
-        """Neighbour across each face, whatever the order in which both hexes have its nodes, (m, 6) int32."""
+        """`hex_neighbours`, whatever the order in which both hexes have the nodes of a face."""
         if not self.n_nonmanifold_faces:
-            return self.face_neighbours
-        return incidence.face_neighbours(*self._corners_of_nodes, opposed=False)[0]
+            return self.hex_neighbours
+        return self._among_hexes(incidence.face_neighbours(*self._corners_of_nodes, opposed=False)[0])
+
+    def _among_hexes(self, neighbours: np.ndarray) -> np.ndarray:
+        n = len(self.hexes)
+        return neighbours if n == len(self.elements) else np.where(neighbours[:n] < n, neighbours[:n], -1)
 
     def release_faces(self) -> None:
         """Give back the memory of `face_neighbours`; they are computed again on the next use."""
@@ -141,9 +167,9 @@ class Topology:
 
     @cached_property
     def boundary_faces(self) -> np.ndarray:
-        """Nodes of each boundary face, counter-clockwise from outside, (k, 4) int32."""
+        """Nodes of each boundary face, counter-clockwise from outside, (k, 4) int32; triangles repeat their last."""
         h, f = np.nonzero(self.face_neighbours < 0)
-        return self.hexes[h[:, None], FACES[f]]
+        return face_nodes(self.elements, h, f)
 
     @cached_property
     def boundary(self) -> np.ndarray:
@@ -182,10 +208,10 @@ class Topology:
             For rings that are no whole number from 0 to the largest number of hexes.
         """
         rings = _RINGS.check(rings)
-        chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
-        reached = mask(chosen, len(self.hexes))
+        chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.elements))
+        reached = mask(chosen, len(self.elements))
         for _ in range(rings):
-            before, reached = reached, any_of_rows(mask(self.hexes[reached], self.n), self.hexes)
+            before, reached = reached, any_of_rows(mask(self.elements[reached], self.n), self.elements)
             if np.array_equal(before, reached):
                 break
         return reached
@@ -193,7 +219,7 @@ class Topology:
     @cached_property
     def parts(self) -> int:
         """Number of components connected by nodes."""
-        return int(components(self.n, self.hexes).max(initial=-1)) + 1 - int(np.count_nonzero(~self.used))
+        return int(components(self.n, self.elements).max(initial=-1)) + 1 - int(np.count_nonzero(~self.used))
 
     @cached_property
     def rings(self) -> CSR:
@@ -228,7 +254,7 @@ class Topology:
         They form the singularity graph of the mesh: Gao, Deng and Chen, "Hexahedral mesh re-parameterization from
         aligned base-complex" (2015). Boundary edges, regular with two hexes, are in `irregular_boundary_edges`.
         """
-        return np.flatnonzero((self.edge_valence != 4) & ~self.edge_on_boundary)
+        return np.flatnonzero((self.edge_valence != 4) & ~self.edge_on_boundary & self._edge_of_hexes)
 
     @cached_property
     def irregular_boundary_edges(self) -> np.ndarray:
@@ -236,7 +262,13 @@ class Topology:
 
         They include the sharp edges of the boundary, with one hex if convex, three if concave.
         """
-        return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
+        return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary & self._edge_of_hexes)
+
+    @property
+    def _edge_of_hexes(self) -> np.ndarray | bool:
+        """True for edges that have no node of another cell than a hex, (e,) bool, or True for all."""
+        others = self.elements[kinds_of(self.elements) > 0]
+        return ~mask(others.ravel(), self.n)[self.edges].any(axis=1) if len(others) else True
 
     @cached_property
     def irregular_nodes(self) -> np.ndarray:

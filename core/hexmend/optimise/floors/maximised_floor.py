@@ -130,7 +130,7 @@ class MaximisedFloor:
         hexes, at = np.nonzero(corners < t + band)
         y = (corners[hexes, at] - t) / band
         shares = self._reward.gap / band * (1 / y - 1 + (y - 1))
-        return hexes, self._energy.mesh.hexes[hexes, at].astype(np.int64), shares
+        return hexes, self._energy.mesh.elements[hexes, at].astype(np.int64), shares
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the energy at positions x (n, 3) with the floor that minimises it."""

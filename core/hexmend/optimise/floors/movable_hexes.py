@@ -11,7 +11,7 @@ from hexmend.energy.barriers.height_barrier import HeightBarrier
 from hexmend.energy.hex_energy import pack_corners
 from hexmend.kernels import elements
 from hexmend.kernels import floor_barrier as kernels
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.solid_cells import corner_tetrahedra, has_corner
 from hexmend.quality import measure
 from hexmend.quality.measure import fixed_tetrahedra
 
@@ -33,16 +33,16 @@ class MovableHexes:
     def __init__(self, energy: MeshEnergy):
         mesh = energy.mesh
         self.energy = energy
-        locked = fixed_tetrahedra(mesh.hexes, ~mesh.free)
-        self.ignored, self._movable = pack_corners(locked), ~locked
+        locked = fixed_tetrahedra(mesh.elements, ~mesh.free)
+        self.ignored, self._movable = pack_corners(locked), has_corner(mesh.elements) & ~locked
         self._partly = np.flatnonzero(locked.any(axis=1))
         self._locked = locked[self._partly]
-        self._moves = mesh.free[mesh.hexes].any(axis=1)
+        self._moves = mesh.free[mesh.elements].any(axis=1)
         self._judged = self._moves & (energy.omitted == 0)
 
     def jacobians(self, x: np.ndarray) -> np.ndarray:
         """Compute the minimum scaled Jacobian of each hex's movable corners at points x (n, 3), (m,); inf: none."""
-        hexes = self.energy.mesh.hexes
+        hexes = self.energy.mesh.elements
         least = measure(x, hexes).scaled_jacobian.copy()
         corners = scaled_jacobians(x, hexes[self._partly])
         least[self._partly] = np.where(self._locked, np.inf, corners).min(axis=1, initial=np.inf)
@@ -62,20 +62,22 @@ class MovableHexes:
 
     def locked_below(self, x: np.ndarray, least: float) -> np.ndarray:
         """Find the hexes with a lower corner that cannot be moved at points x (n, 3), (l,) int64, the lowest first."""
-        values = np.where(self._movable, np.inf, self._corners(x)).min(axis=1)
+        values = np.full(self._movable.shape, np.inf)
+        values[self._partly] = np.where(self._locked, self._corners(x, self._partly), np.inf)
+        values = values.min(axis=1)
         below = np.flatnonzero(values < least)
         return below[np.argsort(values[below], kind="stable")]
 
     def _corners(self, x: np.ndarray, among: np.ndarray | slice = slice(None)) -> np.ndarray:
-        return scaled_jacobians(x, self.energy.mesh.hexes[among])
+        return scaled_jacobians(x, self.energy.mesh.elements[among])
 
     def qualities(self, x: np.ndarray) -> np.ndarray:
         """Compute q(H) at points x (n, 3), with a target that of S W^-1, (m,); inf for a hex that cannot move.
 
         Hexes with corners that the energy omits have no value either, but inf.
         """
-        values = np.empty(self.energy.mesh.n_hexes)
-        kernels.qualities(x, self.energy.mesh.hexes, self.energy.omitted, values, self.energy.target)
+        values = np.empty(self.energy.mesh.n_elements)
+        kernels.qualities(x, self.energy.mesh.elements, self.energy.omitted, values, self.energy.target)
         return np.where(self._judged, values, np.inf)
 
     def barrier(
@@ -106,19 +108,19 @@ class MovableHeights(MovableHexes):
         return self.corners_in_place(x).min(axis=1)
 
     def _corners(self, x: np.ndarray, among: np.ndarray | slice = slice(None)) -> np.ndarray:
-        corners = self.energy.mesh.hexes[among][:, CORNER_TETRAHEDRA].reshape(-1, 4)
+        corners = corner_tetrahedra(self.energy.mesh.elements[among]).reshape(-1, 4)
         return corner_heights(x, corners).min(axis=1).reshape(-1, 8) / self._unit
 
     def corners(self, x: np.ndarray) -> np.ndarray:
         """Compute the three heights of the corners that can be moved at points x (n, 3), (c,)."""
-        corners = self.energy.mesh.hexes[:, CORNER_TETRAHEDRA][self._movable]
+        corners = corner_tetrahedra(self.energy.mesh.elements)[self._movable]
         return corner_heights(x, corners).ravel() / self._unit
 
     def barrier(
         self, jacobian: float, quality: float, jacobian_band: float, quality_band: float, weight: float
     ) -> HeightBarrier:
         """Make the barrier of a floor of all heights; there is none of q(H)."""
-        return HeightBarrier(self.energy.mesh.hexes, self._movable, jacobian, jacobian_band, weight, self._unit)
+        return HeightBarrier(self.energy.mesh.elements, self._movable, jacobian, jacobian_band, weight, self._unit)
 
 
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:

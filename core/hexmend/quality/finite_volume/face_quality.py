@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.solid_cells import face_nodes
 from hexmend.quality.finite_volume.geometry import CellGeometry, chunks, cross, divide, dot, norm
 
 
@@ -69,7 +69,7 @@ def face_quality(geometry: CellGeometry, hexes: np.ndarray, face_neighbours: np.
     neighbour = face_neighbours[owner, side]
     values = np.empty((5, owner.size))
     for part in chunks(owner.size):
-        corners = geometry.points[:, hexes[owner[part, None], FACES[side[part]]].T]
+        corners = geometry.points[:, face_nodes(hexes, owner[part], side[part]).T]
         values[:, part] = _measure(geometry, corners, owner[part], side[part], neighbour[part])
     return FaceQuality(owner.astype(np.int32), neighbour, *values)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import bounds
-from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.mesh.validation import as_points_and_hexes
 
 #: Number of hexes computed at a time: their arrays fit into the processor's cache.
@@ -30,8 +30,8 @@ class CellGeometry:
     unit : float
         Power of two near the size of the bounding box: products of several lengths neither overflow nor vanish.
     face_centres, face_areas : (3, 6, m) float64
-        Centres and area vectors of the faces of each hex, in the order of `hexmend.mesh.hexahedron.FACES`; an area
-        vector is directed out of its hex. Unit `unit` and unit².
+        Centres and area vectors of the faces of each cell, in the order of `hexmend.mesh.solid_cells`, 0 of a face that
+        its kind does not have; an area vector is directed out of its cell. Unit `unit` and unit².
     centres : (3, m) float64
         Centres of the hexes.
     volumes : (m,) float64
@@ -73,9 +73,13 @@ def cell_geometry(points: np.ndarray, hexes: np.ndarray) -> CellGeometry:
     face_centres, face_areas = np.empty((3, 6, m)), np.empty((3, 6, m))
     centres, volumes = np.empty((3, m)), np.empty(m)
     for part in chunks(m):
-        corners = x[:, hexes[part].T]  # (3, 8, k)
-        face_centres[:, :, part], face_areas[:, :, part] = _faces(corners)
-        centres[:, part], volumes[part] = _cells(face_centres[:, :, part], face_areas[:, :, part])
+        for kind, rows in rows_by_kind(hexes[part]):
+            which = part if isinstance(rows, slice) else part.start + rows
+            has = kind.faces[:, 0] >= 0
+            areas, middles = np.zeros((2, 3, 6, len(hexes[which])))
+            middles[:, has], areas[:, has] = _faces(x[:, hexes[which].T], kind.faces[has])
+            face_centres[:, :, which], face_areas[:, :, which] = middles, areas
+            centres[:, which], volumes[which] = _cells(middles[:, has], areas[:, has])
     return CellGeometry(x, unit, face_centres, face_areas, centres, volumes)
 
 
@@ -132,10 +136,13 @@ def divide(a: np.ndarray, b: np.ndarray, otherwise: np.ndarray | float) -> np.nd
     return np.where(sound & np.isfinite(quotient), quotient, otherwise)
 
 
-def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Centres and area vectors (3, 6, k) of the faces of hexes with these corners (3, 8, k)."""
-    p = corners[:, FACES]  # (3, 6, 4, k)
+def _faces(corners: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres and area vectors (3, f, k) of the faces (f, 4) of cells of one kind with these corners (3, 8, k)."""
+    p = corners[:, faces]  # (3, f, 4, k)
     middle = p.mean(axis=2)
+    triangle = faces[:, 2] == faces[:, 3]
+    if triangle.any():
+        middle[:, triangle] = p[:, triangle, :3].mean(axis=2)
     after = p[:, :, [1, 2, 3, 0]]
     normals = cross(after - p, middle[:, :, None] - p)  # twice the area vectors of the triangles
     areas = norm(normals)
@@ -145,7 +152,7 @@ def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _cells(face_centres: np.ndarray, face_areas: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Centres (3, k) and volumes (k,) of hexes with these faces (3, 6, k)."""
+    """Centres (3, k) and volumes (k,) of cells with these faces (3, f, k)."""
     estimate = face_centres.mean(axis=1)
     pyramids = dot(face_areas, face_centres - estimate[:, None])  # three times their volumes
     total = pyramids.sum(axis=0)

@@ -45,7 +45,7 @@ def _faces_of_hexes(field: str, points: np.ndarray, hexes: np.ndarray, quality: 
 
 def _faces_of_mesh(field: str, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """Return the worst values of a field of `FaceQuality`, for `Metric.of_mesh`, by the mesh's topology."""
-    return _face_values(mesh.points, mesh.hexes, quality, lambda: mesh.topology)[field]
+    return _face_values(mesh.points, mesh.elements, quality, lambda: mesh.topology)[field]
 
 
 def _face_values(
@@ -114,7 +114,7 @@ def _jacobian_ratio(bounds: np.ndarray) -> np.ndarray:
 
 
 def _mid_node_offset(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    offsets = np.zeros(mesh.n_hexes)
+    offsets = np.zeros(mesh.n_elements)
     if mesh.mid_nodes is None:
         return offsets
     for part in chunks(mesh.n_hexes):
@@ -122,15 +122,15 @@ def _mid_node_offset(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
         ends = mesh.points[mesh.hexes[part][:, MID_EDGES]]
         away = np.linalg.norm(mesh.points[middles] - ends.mean(axis=2), axis=2)
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
-        offsets[part] = np.where(middles >= 0, divide(away, lengths, math.inf), 0.0).max(axis=1)
+        offsets[: mesh.n_hexes][part] = np.where(middles >= 0, divide(away, lengths, math.inf), 0.0).max(axis=1)
     return offsets
 
 
 def _of_length_ratios(of: Callable[[np.ndarray], np.ndarray], mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """Compute a metric of the lengths of hexes over those of their target; 1 in a mesh without a target."""
     if mesh.element_target is None:
-        return np.ones(mesh.n_hexes)
-    return of(hex_lengths(mesh.points, mesh.hexes) / mesh.element_target.lengths)
+        return np.ones(mesh.n_elements)
+    return of(hex_lengths(mesh.points, mesh.elements) / mesh.element_target.lengths)
 
 
 #: Other metrics: the functions for `Metric.of` and `Metric.of_mesh`.
@@ -140,7 +140,7 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
     "jacobian": (_jacobian, None),
     "jacobian-ratio": (
         lambda points, hexes, quality: _jacobian_ratio(jacobian_bounds(points, hexes)),
-        lambda mesh, quality: _jacobian_ratio(jacobian_bounds(mesh.points, mesh.hexes, mesh.mid_nodes)),
+        lambda mesh, quality: _jacobian_ratio(jacobian_bounds(mesh.points, mesh.elements, mesh.mid_nodes)),
     ),
     "mid-node-offset": (
         lambda points, hexes, quality: np.zeros(len(as_hexes(hexes, len(as_points(points))))),

@@ -48,12 +48,12 @@ class SequentialGETMe(SlidingSmoother):
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
         sweeps = Sweeps(sliding, mesh.n_nodes)
-        points, quality = mesh.points, measure(mesh.points, mesh.hexes)
+        points, quality = mesh.points, measure(mesh.points, mesh.elements)
         relaxation, surface = self.relaxation, None if sliding is None else sliding.sliding_surface
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
             free, q = mesh.free & ~stays, quality.q.copy()
-            candidates = np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32)
+            candidates = np.flatnonzero(free[mesh.elements].any(axis=1)).astype(np.int32)
             settings = kernels.WorstFirstSettings(self.scaling, relaxation, self.penalty, self.rejection_penalty)
             hex_mesh, valid = mesh.topology.hex_mesh, ~quality.inverted
             return kernels.sweep(moved, hex_mesh, free, candidates, q, valid, settings, surface)
@@ -61,7 +61,7 @@ class SequentialGETMe(SlidingSmoother):
         yield Step(points)
         while relaxation >= self.relaxation / 2**HALVINGS:
             points, rejected = sweeps(points, sweep)
-            before, quality = quality, measure(points, mesh.hexes)
+            before, quality = quality, measure(points, mesh.elements)
             diagnostics = {"relaxation": relaxation, "rejected_steps": rejected}
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
             yield Step(points, diagnostics, intermediate=True, quality=quality)

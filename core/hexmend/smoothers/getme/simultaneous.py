@@ -52,13 +52,13 @@ class GETMe(SlidingSmoother):
         mesh = mesh if sliding is None else sliding.mesh
         hex_mesh = mesh.topology.hex_mesh
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        places = np.empty((mesh.n_hexes, 8, 3))
-        points, quality = mesh.points, measure(mesh.points, mesh.hexes)
+        places = np.empty((mesh.n_elements, 8, 3))
+        points, quality = mesh.points, measure(mesh.points, mesh.elements)
         best = figures_of_merit(quality)
         idle = 0
         yield Step(points)
         while idle < self.patience:
-            element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
+            element_steps(points, mesh.elements, self.scaling, self.relaxation, places)
             moved = points.copy()
             kernels.weighted_means(places, self.hex_weights(quality.q), hex_mesh, nodes, moved)
             moved = moved if sliding is None else sliding.projected(moved)
@@ -87,17 +87,17 @@ def _relax_harmful_moves(
     mesh: Mesh, points: np.ndarray, quality: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
     """Relax moves that would invert a valid hex; returns the points, their quality and the number of relaxed nodes."""
-    after = measure(moved, mesh.hexes)
+    after = measure(moved, mesh.elements)
     harmed = np.flatnonzero(after.inverted & ~quality.inverted).astype(np.int32)
     if not harmed.size and (sliding is None or not sliding.rejected_nodes(points, moved).size):
         return moved, after, 0
     relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~quality.inverted, harmed, moved)
     if sliding is None:
-        return moved, measure(moved, mesh.hexes), relaxed
+        return moved, measure(moved, mesh.elements), relaxed
 
     def newly_inverted(x: np.ndarray) -> np.ndarray:
-        return mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted]
+        return mesh.elements[measure(x, mesh.elements).inverted & ~quality.inverted]
 
     # Projection of a relaxed step may invert a hex again: such a step is rejected.
     moved = sliding.reject_moves(points, sliding.projected(moved), newly_inverted)
-    return moved, measure(moved, mesh.hexes), relaxed
+    return moved, measure(moved, mesh.elements), relaxed

@@ -45,7 +45,7 @@ class GlobalDescent(Optimiser):
         x, quads = energy.to_edge_units(points), self.surface_quads(sliding)
         yield Step(points, surface=quads and quads.objective(points))
         while True:
-            delta = policy.at(measure(points, mesh.hexes), energy.hex_sizes)  # zero in the feasible region, 3.2.4
+            delta = policy.at(measure(points, mesh.elements), energy.hex_sizes)  # zero in the feasible region, 3.2.4
             if quads is not None:
                 energy = energy.with_surface(quads.at(points, delta, policy))
             taken = descend(energy, x, delta, find, search)

@@ -32,7 +32,7 @@ class ConstrainedMeans:
         self._root = mesh.linear_motion.roots(mesh.n_nodes)
         independent = np.zeros(mesh.n_nodes, dtype=bool)
         independent[self._root[chosen & mesh.free]] = True
-        self._colours = Topology(self._root[mesh.hexes], mesh.n_nodes).colouring(independent)
+        self._colours = Topology(self._root[mesh.elements], mesh.n_nodes).colouring(independent)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Return the points (n, 3) after a sweep; `rejected` counts the moves that were rejected in it."""
@@ -59,9 +59,9 @@ class ConstrainedMeans:
 
     def _harmed(self, before: np.ndarray, after: np.ndarray, group: np.ndarray, count: int) -> np.ndarray:
         """Mark the groups of nodes whose moves are rejected, (count,) bool; `group` is -1 for nodes that stay."""
-        of_hex = group[self._mesh.hexes].max(axis=1)
+        of_hex = group[self._mesh.elements].max(axis=1)
         attached = np.flatnonzero(of_hex >= 0)
-        hexes, of_hex = self._mesh.hexes[attached], of_hex[attached]
+        hexes, of_hex = self._mesh.elements[attached], of_hex[attached]
         was, now = measure(before, hexes), measure(after, hexes)
         harmed = np.bincount(of_hex, now.inverted & ~was.inverted, count) > 0
         if self._guard == "quality":

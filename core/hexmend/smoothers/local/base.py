@@ -57,7 +57,7 @@ class LocalOptimiser(Optimiser):
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
-        return self.policy.at(measure(points, mesh.hexes), hex_sizes(mesh))
+        return self.policy.at(measure(points, mesh.elements), hex_sizes(mesh))
 
     @property
     def policy(self) -> DeltaPolicy:

@@ -83,8 +83,8 @@ def partition_patches(mesh: Mesh, size: int, overlap: int) -> Patches:
     """
     size, overlap = (one.check(value) for one, value in zip(_SIZES, (size, overlap), strict=True))
     node_start, nodes, hex_start, chosen, slots = kernels.partition(mesh.topology.hex_mesh, mesh.free, size, overlap)
-    colours = CSR(*kernels.colours(hex_start, chosen, mesh.n_hexes))
-    return Patches(CSR(node_start, nodes), CSR(hex_start, chosen), mesh.hexes[chosen], slots, colours)
+    colours = CSR(*kernels.colours(hex_start, chosen, mesh.n_elements))
+    return Patches(CSR(node_start, nodes), CSR(hex_start, chosen), mesh.elements[chosen], slots, colours)
 
 
 @method

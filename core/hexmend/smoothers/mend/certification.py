@@ -13,6 +13,7 @@ from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.energy.terms import Term, Terms
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import TruncatedNewton
@@ -78,7 +79,7 @@ def certify_hexes(
     """
     best, reached = points, points
     for share, energy in zip(config.kept_shares, energies, strict=False):
-        if not curable_hexes(energy.mesh, measure(best, energy.mesh.hexes)).any():
+        if not curable_hexes(energy.mesh, measure(best, energy.mesh.elements)).any():
             break
         best, reached = yield from _Certification(energy, reached, best, share, config).steps()
     if reached is not best:
@@ -87,13 +88,14 @@ def certify_hexes(
 
 
 def curable_hexes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    """Mark the invalid hexes that can become valid, (m,) bool.
+    """Mark the invalid hexes that can become valid, (m,) bool; of other cells those with a corner that is not positive.
 
     They have a free node, and no corner that fixed nodes lock in inversion. Of hexes that overlap at a node wherever it
     is, the worst stays invalid.
     """
-    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
-    curable = quality.invalid & ~locked & mesh.free[mesh.hexes].any(axis=1)
+    locked = locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)
+    curable = quality.invalid & ~locked & mesh.free[mesh.elements].any(axis=1)
+    curable &= (kinds_of(mesh.elements) == 0) | quality.inverted
     overlapping = mesh.topology.overlapping_corners
     for node in np.flatnonzero(np.diff(overlapping.start)):
         hexes = np.unique(overlapping[node] // 8)
@@ -111,7 +113,7 @@ class _Certification:
         self, energy: MeshEnergy, points: np.ndarray, best: np.ndarray, share: float, config: CertificationConfig
     ):
         self._energy, self._config, self._points = energy, config, points
-        self._best, self._fewest = best, measure(best, energy.mesh.hexes).n_invalid
+        self._best, self._fewest = best, measure(best, energy.mesh.elements).n_invalid
         values, x = MovableHexes(energy), energy.to_edge_units(points)
         least = [float(of.min(initial=np.inf)) for of in (values.jacobians(x), values.qualities(x))]
         self._floors = [value - (1 - share) * max(abs(value), 0.1 * config.band) for value in least]
@@ -124,7 +126,7 @@ class _Certification:
         best, reached : (n, 3) float64
         """
         mesh = self._energy.mesh
-        cured = curable_hexes(mesh, measure(self._points, mesh.hexes))
+        cured = curable_hexes(mesh, measure(self._points, mesh.elements))
         left, joined = self._config.steps, cured
         while joined.any() and left > 0:
             cured = cured | joined
@@ -139,10 +141,10 @@ class _Certification:
         """
         energy, config, none = self._energy, self._config, np.zeros(len(cured), dtype=bool)
         x = energy.to_edge_units(self._points)
-        region = Region(energy, mask(energy.mesh.hexes[self._around(cured)], energy.mesh.n_nodes), x)
+        region = Region(energy, mask(energy.mesh.elements[self._around(cured)], energy.mesh.n_nodes), x)
         barrier = MovableHexes(region.energy).barrier(*self._floors, config.band, config.band, 1.0)
         part, y = region.energy.with_barrier(barrier), region.inside(x)
-        validity = ValidityBarrier.of(part.mesh.hexes[cured[region.hexes]], y, config.band, 1.0)
+        validity = ValidityBarrier.of(part.mesh.elements[cured[region.hexes]], y, config.band, 1.0)
         direction, gap = TruncatedNewton(), config.gap
         for number in range(1, most + 1):
             step = newton_step(_with_term(part, validity), y, 0.0, direction)
@@ -151,7 +153,7 @@ class _Certification:
             before = validity.deficit
             y, validity = step.x, validity.with_higher_floors(step.x, gap)
             yield self._take(energy.to_mesh_units(region.merged(x, y)), validity)
-            invalid = curable_hexes(part.mesh, measure(y, part.mesh.hexes))
+            invalid = curable_hexes(part.mesh, measure(y, part.mesh.elements))
             if not invalid.any():
                 return most, none
             joined = none.copy()
@@ -167,12 +169,12 @@ class _Certification:
         """Mark hexes (m,) bool and those in the rings around them."""
         mesh = self._energy.mesh
         for _ in range(self._config.rings):
-            hexes = mask(mesh.hexes[hexes], mesh.n_nodes)[mesh.hexes].any(axis=1)
+            hexes = mask(mesh.elements[hexes], mesh.n_nodes)[mesh.elements].any(axis=1)
         return hexes
 
     def _take(self, points: np.ndarray, validity: ValidityBarrier) -> Step:
         """Take over points (n, 3), and return the step to them."""
-        quality = measure(points, self._energy.mesh.hexes)
+        quality = measure(points, self._energy.mesh.elements)
         if quality.n_invalid < self._fewest:
             self._best, self._fewest = points, quality.n_invalid
         self._points = points

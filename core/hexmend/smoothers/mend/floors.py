@@ -123,7 +123,7 @@ class Floors:
     ):
         self.energy, self._config, self._movable, self._hexes = energy, config, movable, movable(energy)
         self.reward = config.weight / config.first_gap
-        self.touched = np.zeros(energy.mesh.n_hexes, dtype=bool)
+        self.touched = np.zeros(energy.mesh.n_elements, dtype=bool)
         self.move_to(energy.to_edge_units(points))
 
     @property
@@ -264,10 +264,10 @@ class Floors:
         """Energy and hexes of the part of the mesh around some hexes (m,) bool; of the whole without a part."""
         energy, mesh = self.energy, self.energy.mesh
         for _ in range(self._config.rings):
-            near = energy.ranks.complete(mask(mesh.hexes[near], mesh.n_nodes))[mesh.hexes].any(axis=1)
+            near = energy.ranks.complete(mask(mesh.elements[near], mesh.n_nodes))[mesh.elements].any(axis=1)
         if not energy.motion.has_parts or 2 * energy.count(near) > energy.n_hexes:
             return energy, self._hexes, None
-        region = Region(energy, mask(mesh.hexes[near], mesh.n_nodes), self.values.x)
+        region = Region(energy, mask(mesh.elements[near], mesh.n_nodes), self.values.x)
         return region.energy, self._movable(region.energy), region
 
     def _take(self, region: Region | None, hexes: MovableHexes, x: np.ndarray) -> None:

@@ -95,7 +95,7 @@ class FreeBoundary:
     ):
         mesh, moves = sliding.mesh, tolerances.patches > 0
         self.sliding, self._given = sliding, (invalid, tolerances, norm)
-        reaches, near = mask(mesh.hexes[invalid], mesh.n_nodes), tolerances.patches < NO_LIMIT
+        reaches, near = mask(mesh.elements[invalid], mesh.n_nodes), tolerances.patches < NO_LIMIT
         if leaving is None:  # without a limit corners and flat patches would dissolve
             leaving = sliding.leavable & (near | reaches)
         leaving = leaving & moves
@@ -179,7 +179,7 @@ class FreeBoundary:
         back : (n,) bool
             Nodes that are there.
         """
-        sliding, hexes, n = self.sliding, self.mesh.hexes, self.mesh.n_nodes
+        sliding, hexes, n = self.sliding, self.mesh.elements, self.mesh.n_nodes
         there, slides = sliding.start.copy(), mask(sliding.nodes, n)
         there[slides] = sliding.project(points[slides], np.flatnonzero(slides))
         back, before = (self.free if nodes is None else nodes).copy(), measure(points, hexes)

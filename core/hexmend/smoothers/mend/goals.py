@@ -160,7 +160,7 @@ def _balance(
             _below(min(max(quality, shape.quality), top.quality)),
             everywhere=everywhere or again,
         )
-        if not energy.mean(measure(floors.points, energy.mesh.hexes).q) < mean:
+        if not energy.mean(measure(floors.points, energy.mesh.elements).q) < mean:
             break
     return Reached(floors.points, balance_message(energy, floors, top, starts[-1]), boundary=boundary)
 

@@ -30,7 +30,7 @@ def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     (n, 3) float64
         All points; the mesh's own array where no node is far away.
     """
-    size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
+    size = shortest_edges(mesh.points, mesh.elements[quality.inverted])
     far = np.isfinite(size) & (size > FAR_NODE_FACTOR * mesh.mean_edge_length)
     points, motion = mesh.points, mesh.linear_motion
     movable = mesh.free & mesh.interior
@@ -81,7 +81,7 @@ def corners_of_inverted(points: np.ndarray, hexes: np.ndarray, where: np.ndarray
 
 def locked_corners(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """Mark the corner tetrahedra that fixed nodes lock in inversion, (m,) uint8, bits as in `inverted_corners`."""
-    return pack_corners(locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))
+    return pack_corners(locked_tetrahedra(mesh.points, mesh.elements, mesh.fixed, quality.inverted))
 
 
 def count_inverted(

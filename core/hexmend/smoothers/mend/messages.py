@@ -9,7 +9,7 @@ from hexmend.iteration import ActiveSet
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.components import components_of_cells
 from hexmend.quality import ElementQuality, measure
-from hexmend.quality.file_ids import hex_ids, with_ids
+from hexmend.quality.file_ids import name_cells
 from hexmend.smoothers.mend.floors import Floors, Values
 from hexmend.terminal_text import count_phrase
 
@@ -75,7 +75,7 @@ def limit_message(mesh: Mesh, active: ActiveSet, least: float, title: str) -> st
     hexes, count = active.hexes, len(active.hexes)
     if not count:
         return ""
-    places = np.unique(components_of_cells(mesh.n_nodes, mesh.hexes[np.unique(hexes)])).size
+    places = np.unique(components_of_cells(mesh.n_nodes, mesh.elements[np.unique(hexes)])).size
     if count == 1:
         subject = "it cannot be raised further, in hex"
     elif places == 1:
@@ -94,7 +94,7 @@ def limit_message(mesh: Mesh, active: ActiveSet, least: float, title: str) -> st
 
 def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.ndarray) -> str:
     """Say what was reached, which floors hold, and what they cost of q mean at the optimum of shape (n, 3)."""
-    hexes = energy.mesh.hexes
+    hexes = energy.mesh.elements
     kept, quality = floors.values, measure(floors.points, hexes)
     mean, without = energy.mean(quality.q), energy.mean(measure(shape, hexes).q)
     fixed = energy.ranks.least(float(quality.scaled_jacobian.min()))
@@ -112,4 +112,4 @@ def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.n
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:
     """List the numbers of the first eight hexes, each once, with their numbers in the file."""
-    return with_ids(list(dict.fromkeys(hexes[:8].tolist())), hex_ids(mesh))
+    return name_cells(mesh, list(dict.fromkeys(hexes[:8].tolist())))

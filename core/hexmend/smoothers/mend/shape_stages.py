@@ -39,7 +39,7 @@ class ShapeStages:
 
     def _shape(self, mesh: Mesh, energy: MeshEnergy, intermediate: bool) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh, then go to the optimum of shape; a refined mesh starts from its coarse mesh's optimum."""
-        locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
+        locked = locked_corners(mesh, measure(mesh.points, mesh.elements))
         energy = energy.with_objective(energy.norm, locked)
         start = yield from nested_start(mesh, energy, self.coarse_shape, self._nested)
         mesh = mesh if start is mesh.points else mesh.with_points(start)
@@ -66,12 +66,12 @@ class ShapeStages:
     def _optimum(self, energy: MeshEnergy, points: np.ndarray) -> Generator[Step, None, ShapeOptimum]:
         """Go from points (n, 3), or a coarse optimum, to the optimum of shape without inverted corners there."""
         points = yield from nested_start(energy.mesh.with_points(points), energy, self.coarse_shape, self._nested)
-        inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
+        inverted = inverted_corners(points, energy.mesh.elements, measure(points, energy.mesh.elements))
         energy = energy.with_objective(energy.norm, inverted)
         return (yield from optimise_shape(energy, points, True))
 
     def _sound(self, energy: MeshEnergy, points: np.ndarray) -> MeshEnergy:
         """Return an energy that floors are added to, without the corners that are inverted at points (n, 3)."""
-        inverted = inverted_corners(points, energy.mesh.hexes, measure(points, energy.mesh.hexes))
+        inverted = inverted_corners(points, energy.mesh.elements, measure(points, energy.mesh.elements))
         mean = ObjectiveNorm(1.0, self.settings.offset)
         return energy.with_objective(self.settings.norm_on(energy.mesh) if self.settings.balances else mean, inverted)

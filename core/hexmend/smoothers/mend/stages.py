@@ -14,8 +14,8 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import unpack_corners
 from hexmend.iteration import Outcome, Step, map_steps
 from hexmend.mesh.fixing import with_pinned
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import corner_tetrahedra
 from hexmend.parameters import AUTO
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.regressions import WORSE_BY
@@ -40,13 +40,13 @@ class Stages(ShapeStages):
         yield Step(mesh.points)
         slides = self.settings.slides_on(mesh)
         intermediate = slides or self.goal != "shape"
-        given = measure(mesh.points, mesh.hexes)
+        given = measure(mesh.points, mesh.elements)
         locked_at_start = locked_corners(mesh, given)
         mean = -np.inf if given.n_inverted else float(given.q.mean())
         del given  # large meshes have no memory for what is no longer needed
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.settings.sliding(mesh).mesh.points)
-            yield Step(mesh.points, intermediate=True, quality=measure(mesh.points, mesh.hexes), begins=True)
+            yield Step(mesh.points, intermediate=True, quality=measure(mesh.points, mesh.elements), begins=True)
         energy = self._energy(mesh, self.settings.norm_on(mesh))
         steps = self._shape(mesh, energy, intermediate or mesh.linear_motion is not None)
         del energy
@@ -63,14 +63,16 @@ class Stages(ShapeStages):
         certified = yield from certify_hexes(energies, reached.points)
         if reached.boundary is not None and certified is not reached.points:
             exact = reached.boundary.exact(certified)
-            is_valid = measure(exact, mesh.hexes).n_invalid <= measure(certified, mesh.hexes).n_invalid
+            is_valid = measure(exact, mesh.elements).n_invalid <= measure(certified, mesh.elements).n_invalid
             certified = exact if is_valid else reached.points
         sentences, quality = [reached.message], None
         if certified is not reached.points:
-            sentences.append(certified_message(measure(reached.points, mesh.hexes), measure(certified, mesh.hexes)))
+            sentences.append(
+                certified_message(measure(reached.points, mesh.elements), measure(certified, mesh.elements))
+            )
         if slides:
-            quality = measure(certified, mesh.hexes)
-            sentences.append(freed_message(locked_at_start, inverted_corners(certified, mesh.hexes, quality)))
+            quality = measure(certified, mesh.elements)
+            sentences.append(freed_message(locked_at_start, inverted_corners(certified, mesh.elements, quality)))
         decision = " ".join(filter(None, sentences))
         if decision or moved:
             yield Step(certified, decision=decision, intermediate=True, quality=quality, active=reached.active)
@@ -92,7 +94,7 @@ class Stages(ShapeStages):
         Returns energies of the boundary, with wider tolerances where none is given, and the result: that with the
         boundary fixed where hexes are not untangled within a tolerance that was given.
         """
-        settings, hexes, points = self.settings, mesh.hexes, fixed.points
+        settings, hexes, points = self.settings, mesh.elements, fixed.points
         quality = measure(points, hexes)
         mesh = _holding_overlaps(mesh, points, quality)
         sliding = self.sliding_boundary(mesh)
@@ -136,13 +138,13 @@ class Stages(ShapeStages):
 
 def _holding_overlaps(mesh: Mesh, points: np.ndarray, quality: ElementQuality) -> Mesh:
     """Return the mesh at points (n, 3) with the nodes pinned of inverted corners that are so wherever they are."""
-    overlapping = np.zeros(mesh.n_hexes, dtype=bool)
+    overlapping = np.zeros(mesh.n_elements, dtype=bool)
     overlapping[mesh.topology.overlapping_corners.items // 8] = True
     hopeless = quality.inverted & overlapping & ~curable_hexes(mesh, quality)
-    corners = unpack_corners(inverted_corners(points, mesh.hexes, quality))[hopeless]
+    corners = unpack_corners(inverted_corners(points, mesh.elements, quality))[hopeless]
     if not corners.any():
         return mesh
-    nodes = mesh.hexes[hopeless][:, CORNER_TETRAHEDRA][corners].ravel()
+    nodes = corner_tetrahedra(mesh.elements[hopeless])[corners].ravel()
     return with_pinned(mesh.keeping_surface().with_points(points), nodes)
 
 
@@ -150,7 +152,7 @@ def until_valid(steps: Generator[Step, None, T], mesh: Mesh) -> Generator[Step, 
     """Yield steps, as intermediate ones while hexes are invalid that can become valid: these are made so afterwards."""
 
     def judged(step: Step) -> Step:
-        quality = step.quality if step.quality is not None else measure(step.points, mesh.hexes)
+        quality = step.quality if step.quality is not None else measure(step.points, mesh.elements)
         curable = not step.intermediate and curable_hexes(mesh, quality).any()
         return replace(step, quality=quality, intermediate=step.intermediate or bool(curable))
 

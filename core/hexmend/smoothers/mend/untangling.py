@@ -69,7 +69,7 @@ class _Iterate:
     @classmethod
     def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
         points = energy.to_mesh_units(x)
-        return cls.of(x, points, measure(points, energy.mesh.hexes), energy, locked)
+        return cls.of(x, points, measure(points, energy.mesh.elements), energy, locked)
 
     @classmethod
     def of(
@@ -78,7 +78,7 @@ class _Iterate:
         own = where = np.flatnonzero(quality.inverted)
         if energy.ranks.count > 1:
             own = where[energy.counted[where]]
-        count, worst = count_inverted(points, energy.mesh.hexes, locked, own, energy.hex_sizes)
+        count, worst = count_inverted(points, energy.mesh.elements, locked, own, energy.hex_sizes)
         return cls(x, points, quality, where, energy.ranks.sum(count), energy.ranks.least(worst))
 
 
@@ -106,11 +106,11 @@ def untangle(
     Step
         After each Newton step.
     """
-    quality = measure(mesh.points, mesh.hexes)
+    quality = measure(mesh.points, mesh.elements)
     points = recentre_far_nodes(mesh, quality)
     if energy.ranks.any(points is not mesh.points):
         points = energy.ranks.complete(np.array(points))
-        quality = measure(points, mesh.hexes)
+        quality = measure(points, mesh.elements)
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
     now = _Iterate.of(energy.to_edge_units(points), points, quality, energy, locked)
     del points, quality  # large meshes have no memory for what is no longer needed
@@ -127,4 +127,4 @@ def untangle(
         yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         idle = 0 if now.inverted < fewest else idle + 1
         fewest = min(fewest, now.inverted)
-    return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.hexes, now.where) | locked)
+    return Untangled(now.points, now.quality, corners_of_inverted(now.points, mesh.elements, now.where) | locked)

@@ -14,7 +14,7 @@ from hexmend.io import read, read_surface, write
 from hexmend.io.storage.subprocess_reader import limit_memory
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import measure, objective, summarise
+from hexmend.quality import SUMMARY_QUANTITIES, measure, objective, summarise
 from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
 from hexmend.study.batch.case import read_case
@@ -96,8 +96,9 @@ def _status_of(task: Task, error: FileError) -> Status:
 
 def _figures(mesh: Mesh) -> dict[str, Any]:
     """Return the figures of `Summary`, and the objective with p = 1."""
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
-    return summarise(mesh, quality).to_dict() | {"objective_p1": objective(quality, p=1.0)}
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
+    figures = summarise(mesh, quality).to_dict()
+    return {key: figures[key] for key in SUMMARY_QUANTITIES} | {"objective_p1": objective(quality, p=1.0)}
 
 
 def _exit_with_client() -> None:

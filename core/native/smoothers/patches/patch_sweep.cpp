@@ -32,10 +32,14 @@ template <class Target> class MultiNodePatch {
           slots_(slots),
           nodes_(nodes),
           settings_(settings),
-          x_(blocks()),
           step_(nodes.size()) {
-        for (std::int64_t b = 0; b < blocks(); ++b)
-            scales_.push_back(scales_of<Lanes>(target, first + b * LANES, count(b)));
+        for (std::int64_t row = 0, end = hexes.size(); row < end; row = start_.back()) {
+            int count = alike(std::min<std::int64_t>(LANES, end - row),
+                              [&](int i) -> const Hex & { return hexes[row + i]; });
+            scales_.push_back(scales_of<Lanes>(target, first + row, count));
+            start_.push_back(row + count);
+        }
+        x_.resize(blocks());
     }
 
     // Take a Newton step with line search: moves the nodes.
@@ -68,23 +72,27 @@ template <class Target> class MultiNodePatch {
     std::vector<Corners<Lanes>> x_;
     std::vector<ScalesOf<Lanes, Target>> scales_;
     std::vector<Point> step_;
+    std::vector<std::int64_t> start_{0};  // first cell of each block, and the number of cells
 
-    std::int64_t blocks() const { return (static_cast<std::int64_t>(hexes_.size()) + LANES - 1) / LANES; }
-    int count(std::int64_t b) const { return std::min<std::int64_t>(LANES, hexes_.size() - b * LANES); }
+    std::int64_t blocks() const { return start_.size() - 1; }
+    int count(std::int64_t b) const { return start_[b + 1] - start_[b]; }
     std::span<double> step() { return {step_.data()->data(), 3 * step_.size()}; }
 
     // Write x_; returns the factor by which lengths were multiplied, 0 if the patch has no extent.
     double load() {
         const Point &o = points_[nodes_[0]];
         V3<Lanes> origin{broadcast<Lanes>(o[0]), broadcast<Lanes>(o[1]), broadcast<Lanes>(o[2])};
-        double total = 0;
+        double total = 0, edges = 0;
         for (std::int64_t b = 0; b < blocks(); ++b) {
-            x_[b] = gather_corners<Lanes>(points_, hexes_, b * LANES, count(b));
+            x_[b] = gather_corners<Lanes>(points_, hexes_, start_[b], count(b));
             for (auto &corner : x_[b].at) corner = corner - origin;
-            Lanes lengths = edge_lengths(x_[b]);
-            for (int i = 0; i < count(b); ++i) total += lengths[i];
+            with_kind(hexes_[start_[b]], [&](auto cell) {
+                Lanes lengths = edge_lengths<decltype(cell)>(x_[b]);
+                for (int i = 0; i < count(b); ++i) total += lengths[i];
+                edges += decltype(cell)::table.edges * count(b);
+            });
         }
-        double factor = total > 0 ? 12 * static_cast<double>(hexes_.size()) / total : 0.0;
+        double factor = total > 0 ? edges / total : 0.0;
         if constexpr (!std::is_same_v<Target, Cubes>) {
             if (factor > 0) factor = root_mean_square_of_scales();
             for (auto &scales : scales_) scales.inverse = broadcast<Lanes>(1 / factor) * scales.inverse;
@@ -103,8 +111,8 @@ template <class Target> class MultiNodePatch {
         return std::sqrt(total / (3 * static_cast<double>(hexes_.size())));
     }
 
-    double sum_of_powers(Lanes sum_of_eta, int count) const {
-        Lanes energy = hex_energy(sum_of_eta, settings_.norm.offset);
+    double sum_of_powers(Lanes sum_of_eta, double share, int count) const {
+        Lanes energy = cell_energy(sum_of_eta, share, settings_.norm.offset);
         double p = settings_.norm.p, total = 0;
         for (int i = 0; i < count; ++i) total += p == 2 ? energy[i] * energy[i] : std::pow(energy[i], p);
         return total;
@@ -117,12 +125,17 @@ template <class Target> class MultiNodePatch {
         auto rows = std::make_unique<double[][HEX_STRIDE]>(LANES);
         for (std::int64_t b = 0; b < blocks(); ++b) {
             *sums = HessianSums{};
-            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x_[b], scales_[b], settings_.delta, ~Bits{}, *sums); });
-            value += sum_of_powers(sums->eta, count(b));
-            LanePowerDerivatives<Lanes> by(sums->eta * 0.125 - settings_.norm.offset, settings_.norm.p);
-            weigh_hessian<double>(*sums, settings_.norm, rows.get());
-            for (auto &g : sums->g.at) g = by.first * g;
-            for (int i = 0; i < count(b); ++i) system.add(b * LANES + i, sums->g, i, rows[i]);
+            with_kind(hexes_[start_[b]], [&](auto cell) {
+                using Cell = decltype(cell);
+                unroll<Cell::corners>([&](auto t) {
+                    add_tetrahedron<Cell, soft, t>(x_[b], scales_[b], settings_.delta, ~Bits{}, *sums);
+                });
+                value += sum_of_powers(sums->eta, Cell::share, count(b));
+                auto by = power_derivatives_of<Cell>(sums->eta, settings_.norm.offset, settings_.norm.p);
+                weigh_hessian<Cell, double>(*sums, settings_.norm, rows.get());
+                for (auto &g : sums->g.at) g = by.first * g;
+            });
+            for (int i = 0; i < count(b); ++i) system.add(start_[b] + i, sums->g, i, rows[i]);
         }
         return value;
     }
@@ -144,14 +157,17 @@ template <class Target> class MultiNodePatch {
     template <bool soft> double value_along(double alpha) const {
         double total = 0;
         for (std::int64_t b = 0; b < blocks(); ++b) {
-            auto x = gather_corners_or_zero<Lanes>(step_, slots_, b * LANES, count(b));
+            auto x = gather_corners_or_zero<Lanes>(step_, slots_, start_[b], count(b));
             for (int c = 0; c < 8; ++c) x.at[c] = x_[b].at[c] + broadcast<Lanes>(alpha) * x.at[c];
-            Lanes eta{};
-            unroll<8>([&](auto t) {
-                eta += hexmend::eta<soft>(x.template edges<t>(), scales_[b].template columns<t>(), settings_.delta,
-                                          std::true_type{});
+            with_kind(hexes_[start_[b]], [&](auto cell) {
+                using Cell = decltype(cell);
+                Lanes eta{};
+                unroll<Cell::corners>([&](auto t) {
+                    eta += hexmend::eta<soft>(x.template shape<Cell, t>(), scales_[b].template columns<Cell, t>(),
+                                              settings_.delta, std::true_type{});
+                });
+                total += sum_of_powers(eta, Cell::share, count(b));
             });
-            total += sum_of_powers(eta, count(b));
         }
         return total;
     }

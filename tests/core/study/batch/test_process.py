@@ -38,6 +38,8 @@ def test_a_result_is_that_of_the_method(tmp_path):
     result = smooth(io.read(tmp_path / "bridge.vtu"), case.smoother, case.stop)
     assert (row["status"], row["reason"], row["threads"]) == ("done", "", 2)
     for key, value in result.before.to_dict().items():
+        if key == "cells":
+            continue
         assert row[key if key in row else f"{key}_before"] == value
     assert {key: row[f"{key}_after"] for key in ("inverted", "q_min", "objective")} == {
         key: getattr(result.after, key) for key in ("inverted", "q_min", "objective")

@@ -49,6 +49,8 @@ class Judgement:
         findings: Sequence[Finding],
         checks: Report | None = None,
         second_order: SecondOrderSummary | None = None,
+        *,
+        words: tuple[str, str] = ("hex", "hexes"),
     ) -> Judgement:
         """Judge a mesh.
 
@@ -63,6 +65,8 @@ class Judgement:
             Checks of the user's solver.
         second_order : SecondOrderSummary, optional
             Jacobians of the hexes of second order.
+        words : (str, str)
+            Words for one of its cells and for several.
         """
         total, inverted = quality.inverted.size, int(np.count_nonzero(quality.inverted))
         later = ["mid-nodes"] if inverted else []  # which follow the corners when these are untangled
@@ -71,13 +75,13 @@ class Judgement:
             return cls(False, f"To be repaired before solving: {repairable}.", _command("repair", path))
         if inverted:
             verb = "is" if inverted == 1 else "are"
-            sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, 'hex', 'hexes')} {verb} inverted."
+            sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, *words)} {verb} inverted."
             return cls(False, sentence, _untangling(path, quality, locking))
         if second_order is not None and second_order.invalid:
             sentence = f"Not fit for solving: of the hexes of second order {second_order.phrase}."
             return cls(False, sentence, shlex.join(["hexmend", path]))
         if invalid := quality.n_invalid:
-            counted = f"{invalid:,} of {count_phrase(total, 'hex', 'hexes')} {'is' if invalid == 1 else 'are'}"
+            counted = f"{invalid:,} of {count_phrase(total, *words)} {'is' if invalid == 1 else 'are'}"
             undecided = f" ({quality.n_undecided:,} of them undecided)" if quality.n_undecided else ""
             sentence = f"Not fit for solving: {counted} invalid inside, between positive corners{undecided}."
             return cls(False, sentence, _command("smooth", path))
@@ -90,12 +94,12 @@ class Judgement:
         limit, _ = METRICS["scaled-jacobian"].acceptable
         poor = int(np.count_nonzero(quality.scaled_jacobian < limit))
         if poor:
-            counted = f"{poor:,} of {count_phrase(total, 'hex', 'hexes')} {'has' if poor == 1 else 'have'}"
+            counted = f"{poor:,} of {count_phrase(total, *words)} {'has' if poor == 1 else 'have'}"
             but = f"but poor, and only {condition}" if condition else "but poor"
             sentence = f"Fit for solving, {but}: {counted} a scaled Jacobian below {limit:g}."
             return cls(True, sentence, _command("smooth", path))
         fit = f"Fit for solving, {condition}" if condition else "Fit for solving"
-        sentence = f"{fit}: no hex is invalid or has a scaled Jacobian below {limit:g}."
+        sentence = f"{fit}: no {words[0]} is invalid or has a scaled Jacobian below {limit:g}."
         return cls(True, sentence, shlex.join(["hexmend", path]))
 
     @property

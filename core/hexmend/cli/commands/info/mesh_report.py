@@ -10,12 +10,13 @@ import numpy as np
 
 from hexmend.cli.commands.info.judgement import Judgement
 from hexmend.cli.output.mesh_output import print_notes
-from hexmend.cli.output.text_tables import print_spreads, print_summaries
+from hexmend.cli.output.text_tables import print_kinds, print_spreads, print_summaries
 from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
 from hexmend.run.interface_messages import describe_embedded, describe_interfaces
@@ -37,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
         args.solver = SOLVERS[args.solver.lower()].name  # raises before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
-    quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
@@ -47,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     findings = _examine(mesh, args.doctor, second_order is not None and second_order.invalid > 0)
     joined = CONTACT_CARDS in mesh.field_data  # or kept apart, by cards of the file
     faults = [finding for finding in findings if not (joined and finding.kind == "parts")]
-    judgement = Judgement.of(args.mesh, quality, locking, faults, checks, second_order)
+    judgement = Judgement.of(args.mesh, quality, locking, faults, checks, second_order, words=nouns(mesh.elements))
     if args.json:
         from hexmend.report.records import to_json  # not loaded for a report in words
 
@@ -66,6 +67,7 @@ def run(args: argparse.Namespace) -> int:
         print(to_json(answer | judgement.to_dict()))
         return 0
     print_summaries(args.mesh, [""], [summary])
+    print_kinds(summary.cells)
     if locking is not None:
         _print_locked(args, mesh, locking)
     if mesh.materials is not None:
@@ -111,7 +113,7 @@ def _print_materials(mesh: Mesh) -> None:
     named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
     more = len(named) - _MAX_PLACES
     listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
-    print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
+    print(f"{describe_interfaces(mesh)} {nouns(mesh.elements)[1].capitalize()}: {printable(listed)}.")
 
 
 def _check(mesh: Mesh, solver: str | None, quality: ElementQuality) -> Report | None:

@@ -73,7 +73,7 @@ class WholeSource:
         mesh = self._with_motion(self._given, method)
         check_mesh(mesh)
         check_orientation(mesh)
-        check_memory(args, [method], mesh.n_hexes * local_ranks() // ranks, "use more machines")
+        check_memory(args, [method], mesh.n_elements * local_ranks() // ranks, "use more machines")
         mesh = with_target(mesh, method)
         if mesh.target is None:
             return mesh
@@ -113,14 +113,14 @@ class WholeSource:
 
 def with_target(mesh: Mesh, method: Smoother) -> Mesh:
     """Return a mesh with the target that a method has for its hexes, such as those of boundary layers."""
-    return ShapeWatch(mesh, measure(mesh.points, mesh.hexes)).with_target(method)
+    return ShapeWatch(mesh, measure(mesh.points, mesh.elements)).with_target(method)
 
 
 def finish_alone(mesh: Mesh, points: np.ndarray, run: RankRun) -> StageRun:
     """Go on in one process from points (n, 3), where the ranks have left the minimum scaled Jacobian unsound."""
     print("hexmend: the minimum scaled Jacobian is not sound: rank 0 raises it alone", file=sys.stderr, flush=True)
     points = mesh.with_points(points).points
-    quality = measure(points, mesh.hexes, mesh.mid_nodes)
+    quality = measure(points, mesh.elements, mesh.mid_nodes)
     judged = measure_against_target(mesh, points, quality)
     start = Iteration(run.number, points, quality, run.seconds, 0.0, {}, run.smoother.norm, judged)
     alone = StageRun(mesh, Stage(run.smoother, run.stop), 1, start, start)

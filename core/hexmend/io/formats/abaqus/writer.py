@@ -64,7 +64,7 @@ def _write_sets(file: TextIO, content: Content, node_ids: np.ndarray, element_id
 
 def _write_surfaces(file: TextIO, content: Content, element_ids: list[np.ndarray]) -> None:
     blocks = zip(content.blocks, element_ids, strict=True)
-    hex_ids = np.concatenate([ids for block, ids in blocks if block.kind in HEX_KINDS])
+    hex_ids = np.concatenate([np.empty(0, np.int64), *(ids for block, ids in blocks if block.kind in HEX_KINDS)])
     for name, title in _titles(content.side_sets).items():
         file.write(f"*SURFACE, NAME={title}, TYPE=ELEMENT\n")
         for hexa, face in np.asarray(content.side_sets[name]).tolist():

@@ -134,7 +134,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
     for block in content.blocks:
         rows.setdefault(block.kind, []).append(_with_refs(block.nodes, block.data.get(REF)))
     sections = {name: np.concatenate(rows[kind]) for name, kind in _CELLS.items() if kind in rows}
-    sections["Hexahedra"] = np.concatenate(rows["hex"])[order]
+    sections["Hexahedra"] = np.concatenate(rows.get("hex", [np.empty((0, 9), np.int64)]))[order]
     for name, title in _NODE_SETS.items():
         if title in content.node_sets:
             sections[name] = np.asarray(content.node_sets[title]).reshape(-1, 1) + 1

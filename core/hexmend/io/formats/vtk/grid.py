@@ -117,7 +117,7 @@ def to_content(path: Path, grid: Grid) -> Content:
         blocks.append(Block(KIND_BY_TYPE[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
     unknown = np.flatnonzero(~mask(np.array(list(WIDTH_BY_TYPE)), 256)[types])
     if unknown.size:
-        if not any(block.kind in HEX_KINDS for block in blocks):
+        if not any(block.kind in HEX_KINDS or CELL_KINDS[block.kind].dimension == 3 for block in blocks):
             first = int(unknown[0])
             name = NAMES.get(int(types[first]), f"cell of type {types[first]}")
             problem = f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12, 25, 29)"

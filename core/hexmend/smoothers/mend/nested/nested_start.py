@@ -91,7 +91,7 @@ def _coarse_optimum(
             return None
         return Step(
             problem.by_positions(step.points),
-            {**step.diagnostics, "coarse_hexes": problem.mesh.n_hexes},
+            {**step.diagnostics, "coarse_hexes": problem.mesh.n_elements},
             intermediate=True,
             infeasible=energy.limits_moves,
             norm=energy.norm,
@@ -116,4 +116,4 @@ def _best(problem: CoarseProblem, mesh: Mesh, energy: MeshEnergy, coarse: np.nda
 
 
 def _rank(mesh: Mesh, energy: MeshEnergy, points: np.ndarray) -> tuple[int, float]:
-    return measure(points, mesh.hexes).n_inverted, energy.value(energy.to_edge_units(points))
+    return measure(points, mesh.elements).n_inverted, energy.value(energy.to_edge_units(points))

@@ -114,8 +114,8 @@ def test_cells_of_unknown_types_are_left_out_with_a_note(tmp_path):
 
 @pytest.mark.parametrize("kind", ["BEX_HEX", "HEXSHELL", "NFACED", ""])
 def test_a_file_without_hexes_is_refused_with_the_types_that_it_has(kind, tmp_path):
-    blocks = [(kind, "", [range(1, 9)]), ("TETRA4", "", [range(1, 5)])]
-    words = f"holds no hexahedra, but 1 tetra cell and 1 cell of type {kind or 'unnamed'} in block 1"
+    blocks = [(kind, "", [range(1, 9)]), ("TRI3", "", [range(1, 4)])]
+    words = f"holds no hexahedra, but 1 triangle cell and 1 cell of type {kind or 'unnamed'} in block 1"
     with pytest.raises(FileError, match=words):
         io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks))
 
