@@ -110,12 +110,6 @@ WHOLE = {
         (DECK + "*NSET, NSET=x, GENERATE\n1, 5, 0\n", "expected first, last and step"),
         ("*INSTANCE, NAME=a, PART=b\n", "refers to the part 'b', which does not exist"),
     ],
-    "b.mesh": [
-        (
-            "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra 1\n1 2 3 4 0\n",
-            "holds no hexahedra, but 1 tetra cell. Let the mesher make hexahedra",
-        ),
-    ],
     "a.msh": [
         ("hello", "does not begin with $MeshFormat"),
         ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "is of version '1'"),
