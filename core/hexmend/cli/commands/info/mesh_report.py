@@ -19,7 +19,6 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
-from hexmend.run.interface_messages import describe_embedded, describe_interfaces
 from hexmend.terminal_text import count_phrase, printable
 
 if TYPE_CHECKING:
@@ -72,8 +71,10 @@ def run(args: argparse.Namespace) -> int:
         _print_locked(args, mesh, locking)
     if mesh.materials is not None:
         _print_materials(mesh)
-    if embedded := describe_embedded(mesh):
-        print(embedded)
+    if mesh.embedded.any():
+        from hexmend.run.interface_messages import describe_embedded
+
+        print(describe_embedded(mesh))
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
     for wall in layers:
@@ -108,6 +109,8 @@ def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ..
 
 def _print_materials(mesh: Mesh) -> None:
     """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
+    from hexmend.run.interface_messages import describe_interfaces
+
     materials = mesh.materials
     counts = np.bincount(materials.of_hex).tolist()
     named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
