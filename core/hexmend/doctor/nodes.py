@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
-from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
+from hexmend.doctor.removal import referenced_nodes, renumber_nodes
 from hexmend.kernels.closest_point import numbers_of_different_points
+from hexmend.mesh.collapsed_hexes import has_repeated_node
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology.close_pairs import close_pairs

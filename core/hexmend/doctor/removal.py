@@ -4,38 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import index_of, mask
+from hexmend.arrays import mask
 from hexmend.mesh.cells import Cells
+from hexmend.mesh.collapsed_hexes import keep_hexes, renumbered_sets
 from hexmend.mesh.mesh import Mesh
-
-
-def keep_hexes(mesh: Mesh, kept: np.ndarray, representative: np.ndarray | None = None) -> Mesh:
-    """Return the mesh with some of its hexes; all nodes stay.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    kept : (m,) bool
-        True for hexes to be kept.
-    representative : (m,) int, optional
-        Hex that replaces each hex in sets, such as the kept one of duplicates.
-
-    Returns
-    -------
-    Mesh
-    """
-    rows = np.flatnonzero(kept)
-    place = index_of(rows, mesh.n_hexes)
-    if representative is not None:
-        place = place[representative]
-    sides = {name: np.column_stack([place[side[:, 0]], side[:, 1]]) for name, side in mesh.side_sets.items()}
-    return mesh.rebuilt(
-        hexes=mesh.hexes[rows],
-        hex_data={name: values[rows] for name, values in mesh.hex_data.items()},
-        hex_sets=_renumbered_sets(mesh.hex_sets, place),
-        side_sets={name: faces[faces[:, 0] >= 0] for name, faces in sides.items() if (faces[:, 0] >= 0).any()},
-        mid_nodes=None if mesh.mid_nodes is None else mesh.mid_nodes[rows],
-    )
 
 
 def extract_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
@@ -65,7 +37,7 @@ def _on_nodes(cells: Cells, used: np.ndarray) -> Cells:
     kept = used[cells.nodes].all(axis=1)
     data = {name: values[kept] for name, values in cells.data.items()}
     return Cells(
-        cells.kind, cells.nodes[kept], data, _renumbered_sets(cells.sets, np.where(kept, np.cumsum(kept) - 1, -1))
+        cells.kind, cells.nodes[kept], data, renumbered_sets(cells.sets, np.where(kept, np.cumsum(kept) - 1, -1))
     )
 
 
@@ -91,18 +63,12 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
         mid_nodes=None if mids is None else np.where(mids >= 0, target[mids], -1),
         pinned=None if mesh.pinned is None else np.isin(np.arange(len(first)), target[mesh.pinned]),
         node_data={name: values[first] for name, values in mesh.node_data.items()},
-        node_sets=_renumbered_sets(mesh.node_sets, target),
+        node_sets=renumbered_sets(mesh.node_sets, target),
         cells=tuple(Cells(c.kind, target[c.nodes].astype(np.int32), c.data, c.sets) for c in mesh.cells),
     )
     own = mesh.without_motion_of_rules()  # the rules name nodes as they were, and are gone
     motion = own.linear_motion
     return rebuilt if motion is None else rebuilt.with_linear_motion(motion.renumbered(target), own.motion_start[first])
-
-
-def has_repeated_node(hexes: np.ndarray) -> np.ndarray:
-    """Return True for hexes (m, 8) that use a node twice, (m,) bool."""
-    rows = np.sort(hexes, axis=1)
-    return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
 
 
 def referenced_nodes(mesh: Mesh) -> np.ndarray:
@@ -117,14 +83,3 @@ def referenced_nodes(mesh: Mesh) -> np.ndarray:
     for members in mesh.node_sets.values():  # such as a reference point
         used[members] = True
     return used
-
-
-def _renumbered_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
-    """Sets in new numbers, without removed members and empty sets."""
-    answer = {}
-    for name, members in sets.items():
-        there = place[members]
-        there = np.unique(there[there >= 0])
-        if len(there):
-            answer[name] = there
-    return answer

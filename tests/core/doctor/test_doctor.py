@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from hexmend import Cells, LinearMotion, Mesh, io, measure
 from hexmend.cli.main import main
 from hexmend.doctor import PROBLEMS, Finding, examine, repair
-from hexmend.doctor.cells import _WEDGES
 from hexmend.doctor.removal import extract_hexes, renumber_nodes
-from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
+from hexmend.mesh.collapsed_hexes import with_collapsed_converted
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE, VOXEL_ORDER
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.orientation import mirror_hexes, with_consistent_orientation
 from tests.core.doctor.faulty_meshes import (
@@ -261,25 +261,39 @@ def test_data_sets_and_pins_follow():
     assert fewer.side_sets["end"].tolist() == [[0, 1]]
 
 
-def test_every_collapsed_pair_of_edges_makes_a_wedge_that_stands_upright():
-    assert len(_WEDGES) == 12
-    edges = {tuple(sorted(edge)) for edge in EDGES.tolist()}
-    for pair, corners in _WEDGES.items():
-        assert pair <= edges
-        x = UNIT_CUBE.copy()
-        for a, b in pair:
-            x[[a, b]] = x[[a, b]].mean(axis=0)
-        a, b, c, d = x[list(corners[:4])]
-        assert np.linalg.det([b - a, c - a, d - a]) > 0
-        assert len({tuple(place) for place in x[list(corners)]}) == 6
+@pytest.mark.parametrize("face", range(6))
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_face_collapsed_to_an_edge_leaves_a_wedge(face, turned):
+    nodes, (a, b, c, d) = np.arange(8), FACES[face]
+    nodes[[b, c] if turned else [b, d]] = nodes[[a, d] if turned else [a, c]]
+    mesh, _ = with_collapsed_converted(Mesh(UNIT_CUBE, [nodes.tolist()]))
+    assert (mesh.n_hexes, [cells.kind for cells in mesh.cells]) == (0, ["wedge"])
+    assert measure(mesh.points, mesh.elements).jacobian.min() > 0.5
+    assert mesh.quality("volume").sum() == pytest.approx(0.5)
 
 
-def test_a_collapsed_hex_is_kept_as_a_wedge_whose_nodes_stay():
-    mesh = collapsed()
-    after, _ = repair(mesh)
+@pytest.mark.parametrize("turns", range(4))
+@pytest.mark.parametrize("tips", range(4))
+def test_a_hex_with_a_face_in_one_node_is_a_pyramid_or_a_tetrahedron(turns, tips):
+    order = np.arange(8)
+    for turn in [[1, 2, 3, 0, 5, 6, 7, 4]] * turns + [[4, 5, 1, 0, 7, 6, 2, 3]] * tips:
+        order = order[turn]
+    for kind, places, volume in (
+        ("pyramid", [0, 1, 2, 3, 4, 4, 4, 4], 1 / 3),
+        ("tetra", [0, 1, 2, 2, 4, 4, 4, 4], 1 / 6),
+    ):
+        nodes = np.array(places)[order]  # the same hex, numbered from another corner
+        mesh, text = with_collapsed_converted(Mesh(UNIT_CUBE, [nodes.tolist()]))
+        assert [cells.kind for cells in mesh.cells] == [kind]
+        assert mesh.quality("volume").sum() == pytest.approx(volume)
+        assert text.startswith("1 hex is collapsed")
+
+
+def test_a_collapsed_hex_is_kept_as_a_wedge():
+    after, _ = repair(collapsed())
     assert after.n_hexes == 26
     assert [cells.kind for cells in after.cells] == ["wedge"]
-    assert after.fixed[after.cells[0].nodes].all()
+    assert after.n_elements == 27
 
 
 def test_a_duplicate_leaves_its_sets_and_sides_to_the_hex_that_is_kept():
@@ -301,9 +315,9 @@ def test_a_wedge_keeps_what_the_hex_had():
 
 def test_what_cannot_be_mended_is_not_said_to_be():
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1.0]])
-    mesh = Mesh(points, [[0, 1, 2, 2, 3, 4, 5, 5]])
+    mesh = Mesh(points, [[0, 1, 2, 2, 0, 1, 2, 2]])  # flat, and the only one
     assert not found_in(mesh)["degenerate-hexes"].mendable
-    after, mended = repair(mesh)
+    after, mended = repair(mesh, ["degenerate-hexes"])
     assert mended == ()
     assert after is mesh
 

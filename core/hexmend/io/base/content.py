@@ -20,6 +20,7 @@ from hexmend.arrays import as_immutable_owned
 from hexmend.errors import FileError
 from hexmend.io.base.fixed_marks import find_marks
 from hexmend.mesh.cells import CELL_KINDS, Cells
+from hexmend.mesh.collapsed_hexes import with_collapsed_converted
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
@@ -212,7 +213,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     pinned = content.pinned if content.pinned is not None else find_marks(content.node_data)[1]
     lengths, corners = [len(block) for block in hexes], [block.nodes[:, :8] for block in hexes]
     corners = corners or [np.empty((0, 8), np.int32)]
-    return Mesh(
+    mesh = Mesh(
         as_immutable_owned(as_points(points)),
         as_immutable_owned(as_hexes(corners[0] if len(corners) == 1 else np.concatenate(corners), len(points))),
         pinned=pinned,
@@ -226,6 +227,8 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         field_data=content.field_data,
         notes=tuple(notes),
     )
+    mesh, note = with_collapsed_converted(mesh)
+    return mesh.replace(notes=(*mesh.notes, note)) if note else mesh
 
 
 def from_mesh(mesh: Mesh) -> Content:
