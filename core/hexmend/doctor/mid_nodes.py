@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
+from hexmend.mesh.second_order.raised_mid_nodes import are_low, raised_mid_nodes
+from hexmend.optimise.blas_threads import one_blas_thread
 from hexmend.quality import corner_determinants
 from hexmend.quality.validity import Validity, certify
 from hexmend.terminal_text import count_phrase
+
+#: Rings of hexes around invalid ones whose mid-nodes move too, where moving their own is not enough: thin layers at a
+#: curved boundary bend with it.
+_RINGS = 3
 
 
 @register_problem
@@ -19,8 +25,8 @@ class BentEdges(Problem):
 
     name, title = "mid-nodes", "Mid-nodes"
     rank = 10
-    remedy = "Mid-nodes inside the mesh can be put halfway between the corners; those on the boundary keep its shape."
-    action = "put the mid-nodes inside the mesh halfway between the corners"
+    remedy = "Mid-nodes inside the mesh can be moved until they are valid; those on the boundary keep its shape."
+    action = "move the mid-nodes inside the mesh until the hexes are valid"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick or mesh.mid_nodes is None:
@@ -33,16 +39,21 @@ class BentEdges(Problem):
         return self.finding(where, text, mendable=self.mend(mesh) is not mesh)
 
     def mend(self, mesh: Mesh) -> Mesh:
-        where = self.locate(mesh)
         assert mesh.mid_nodes is not None
-        movable = ~_kept_mid_nodes(mesh)
-        rows = mesh.mid_nodes[where]
-        hexes, columns = np.nonzero((rows >= 0) & movable[rows])
-        points = mesh.points.copy()
-        corners = mesh.points[mesh.hexes[where[hexes]]]
-        points[rows[hexes, columns]] = np.einsum("kc,kcx->kx", MID_NODE_WEIGHTS[columns], corners)
-        fewer = np.count_nonzero(_bad_between_corners(mesh, points)) < where.size
-        return mesh.rebuilt(points=points) if fewer else mesh
+        points, kept = mesh.points.copy(), _kept_mid_nodes(mesh)
+        given = bad = low = _bad_between_corners(mesh, points)
+        for rings in range(_RINGS + 1):
+            near = low.copy()
+            with one_blas_thread():
+                for hexes, nodes, positions in raised_mid_nodes(points, mesh.hexes, mesh.mid_nodes, low, kept, rings):
+                    near[hexes] = True
+                    before, points[nodes] = points[nodes], positions
+                    invalid = certify(points, mesh.hexes[hexes], mesh.mid_nodes[hexes]) != Validity.VALID
+                    if (invalid & ~bad[hexes]).any() or invalid.sum() >= max(bad[hexes].sum(), 1):
+                        points[nodes] = before
+            bad, some = _bad_between_corners(mesh, points), np.flatnonzero(near)
+            low = mask(some[are_low(points, mesh.hexes[some], mesh.mid_nodes[some])], mesh.n_hexes)
+        return mesh.rebuilt(points=points) if bad.sum() < given.sum() else mesh
 
 
 def _bad_between_corners(mesh: Mesh, points: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ from hexmend.errors import MeshError
 from hexmend.kernels import elements, faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
+from hexmend.mesh.second_order.mid_node_order import in_order
 from hexmend.mesh.topology.components import components_of_cells
 from hexmend.mesh.topology.face_parity import face_parity
 from hexmend.terminal_text import count_phrase
@@ -26,7 +27,8 @@ _CHUNK = 1 << 16
 def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = lambda share: None) -> Mesh:
     """Return the mesh with all left-handed hexes renumbered right-handed; a note and `Mesh.renumbered` say so.
 
-    Hexes that the positions of their nodes invert are left as they are: smoothing has to repair them.
+    Hexes that the positions of their nodes invert are left as they are: smoothing has to repair them. Mid-nodes that
+    are in the order of another program are put in order, which a note says too.
 
     Parameters
     ----------
@@ -39,8 +41,20 @@ def with_consistent_orientation(mesh: Mesh, report: Callable[[float], object] = 
     Mesh
     """
     which = left_handed_hexes(mesh, report)
-    if not which.any():
+    if which.any():
+        mesh = _right_handed(mesh, which)
+    mids = None if mesh.mid_nodes is None else in_order(mesh.points, mesh.hexes, mesh.mid_nodes)
+    if mids is None:
         return mesh
+    note = (
+        "Mid-nodes are in the order of another program in the file, in which nearly all hexes of second order are "
+        "invalid: those of the vertical edges and of the upper edges were exchanged on reading."
+    )
+    return mesh.replace(mid_nodes=mids, notes=(*mesh.notes, note))
+
+
+def _right_handed(mesh: Mesh, which: np.ndarray) -> Mesh:
+    """Return the mesh with left-handed hexes (m,) bool renumbered, with a note and `Mesh.renumbered`."""
     are = left_handed_are(mesh, which)
     note = f"{are} numbered inside out in the file (left-handed), and renumbered on reading."
     renumbered = "hexes" if _differ_from_neighbours(mesh, which) else "parts"
