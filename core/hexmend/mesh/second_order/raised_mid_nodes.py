@@ -91,19 +91,25 @@ class Patch:
         return float(value), total[self._free]
 
     def raised(self, halfway: np.ndarray) -> np.ndarray:
-        """Find positions (f, 3) at which no hex is lower than as given, from these or from others (f, 3)."""
-        x, floors = self.start, self.least(self.start)
-        if (self.least(halfway) >= floors).all():
-            x = halfway
+        """Find positions (f, 3) at which no hex is lower than as given; they begin as given, or at others (f, 3)."""
+        floors = self.least(self.start)
+        x = self._without_lower(halfway, self.start, floors)
         begin = min(x, halfway, key=lambda each: self.barrier(each, floors)[0])
         while (floors := self.least(x)).min() < _GOAL:
             new = self._minimised(begin, floors)
-            steps = (x + 0.5**k * (new - x) for k in range(10))
-            begin = next((step for step in steps if (self.least(step) >= floors).all()), x)
-            x, gains = begin, (self.least(begin) - floors)[floors < _GOAL]
-            if gains.mean() < _MARGIN:
+            steps = [self._without_lower(x + 0.5**k * (new - x), x, floors) for k in range(5)]
+            x = begin = max(steps, key=lambda step: self.least(step).sum())
+            if (self.least(x) - floors)[floors < _GOAL].mean() < _MARGIN:
                 break
         return x
+
+    def _without_lower(self, new: np.ndarray, x: np.ndarray, floors: np.ndarray) -> np.ndarray:
+        """Return new positions (f, 3), but those at x (f, 3) of nodes of hexes that would be below their floor (k,)."""
+        new = new.copy()
+        while (lower := self.least(new) < floors).any():
+            back = mask(self._local[lower].ravel(), self._free.size)[self._free]
+            new[back] = x[back]
+        return new
 
     def _minimised(self, begin: np.ndarray, floors: np.ndarray) -> np.ndarray:
         """Minimise the barrier of floors (k,) from positions (f, 3); the unknowns are moves in edge lengths."""
