@@ -93,7 +93,7 @@ class Patch:
     def raised(self, halfway: np.ndarray) -> np.ndarray:
         """Find positions (f, 3) at which no hex is lower than as given; they begin as given, or at others (f, 3)."""
         floors = self.least(self.start)
-        x = self._without_lower(halfway, self.start, floors)
+        x = self.without_lower(halfway)
         begin = min(x, halfway, key=lambda each: self.barrier(each, floors)[0])
         while (floors := self.least(x)).min() < _GOAL:
             new = self._minimised(begin, floors)
@@ -102,6 +102,10 @@ class Patch:
             if (self.least(x) - floors)[floors < _GOAL].mean() < _MARGIN:
                 break
         return x
+
+    def without_lower(self, new: np.ndarray) -> np.ndarray:
+        """Return new positions (f, 3), but those as given of nodes of hexes that would be lower than as given."""
+        return self._without_lower(new, self.start, self.least(self.start))
 
     def _without_lower(self, new: np.ndarray, x: np.ndarray, floors: np.ndarray) -> np.ndarray:
         """Return new positions (f, 3), but those at x (f, 3) of nodes of hexes that would be below their floor (k,)."""
@@ -136,7 +140,7 @@ def are_low(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.
 
 
 def raised_mid_nodes(
-    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, low: np.ndarray, kept: np.ndarray, rings: int
+    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, low: np.ndarray, kept: np.ndarray, rings: int | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Find positions of mid-nodes around hexes that raise their least det J.
 
@@ -149,8 +153,9 @@ def raised_mid_nodes(
         The hexes. Their mid-nodes begin as given or halfway between the corners, where that is better.
     kept : (n,) bool
         Mid-nodes that stay.
-    rings : int
-        Rings of hexes, each sharing mid-nodes with the last, whose mid-nodes move too.
+    rings : int or None
+        Rings of hexes, each sharing mid-nodes with the last, whose mid-nodes move too. None puts mid-nodes of the hexes
+        halfway, where that makes no hex lower, and minimises nothing.
 
     Yields
     ------
@@ -165,7 +170,7 @@ def raised_mid_nodes(
     rows, columns = np.nonzero(low[:, None] & free[mid_nodes])
     halfway, region = points.copy(), low
     halfway[mid_nodes[rows, columns]] = np.einsum("kc,kcx->kx", MID_NODE_WEIGHTS[columns], points[hexes[rows]])
-    for _ in range(rings):
+    for _ in range(rings or 0):
         region = (mask(mid_nodes[region], free.size)[mid_nodes] & (mid_nodes >= 0)).any(axis=1)
     free &= mask(mid_nodes[region], free.size)
     rows, columns = np.nonzero(free[mid_nodes])
@@ -174,4 +179,5 @@ def raised_mid_nodes(
     for number in np.unique(patches[some]):
         patch = some[patches[some] == number]
         found = Patch(points, hexes[patch], mid_nodes[patch], free)
-        yield patch, found.nodes, found.raised(halfway[found.nodes])
+        start = halfway[found.nodes]
+        yield patch, found.nodes, found.raised(start) if rings is not None else found.without_lower(start)
