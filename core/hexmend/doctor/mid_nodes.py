@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
 from hexmend.mesh.second_order.raised_mid_nodes import are_low, raised_mid_nodes
 from hexmend.optimise.blas_threads import one_blas_thread
@@ -42,15 +43,18 @@ class BentEdges(Problem):
         assert mesh.mid_nodes is not None
         points, kept = mesh.points.copy(), _kept_mid_nodes(mesh)
         given = bad = low = _bad_between_corners(mesh, points)
-        for rings in range(_RINGS + 1):
-            near = low.copy()
+        for rings in (None, *range(_RINGS + 1)):  # first halfway alone, which is quick and leaves small patches
+            if not low.any():
+                break
+            near, start = low.copy(), points.copy()
+            was_invalid = _invalid(points, mesh, np.arange(mesh.n_hexes))
             with one_blas_thread():
                 for hexes, nodes, positions in raised_mid_nodes(points, mesh.hexes, mesh.mid_nodes, low, kept, rings):
                     near[hexes] = True
-                    before, points[nodes] = points[nodes], positions
-                    invalid = certify(points, mesh.hexes[hexes], mesh.mid_nodes[hexes]) != Validity.VALID
-                    if (invalid & ~bad[hexes]).any() or invalid.sum() >= max(bad[hexes].sum(), 1):
-                        points[nodes] = before
+                    points[nodes] = positions
+                    while (worse := _invalid(points, mesh, hexes) & ~was_invalid[hexes]).any():
+                        back = mesh.mid_nodes[hexes[worse]]
+                        points[back[back >= 0]] = start[back[back >= 0]]
             bad, some = _bad_between_corners(mesh, points), np.flatnonzero(near)
             low = mask(some[are_low(points, mesh.hexes[some], mesh.mid_nodes[some])], mesh.n_hexes)
         return mesh.rebuilt(points=points) if bad.sum() < given.sum() else mesh
@@ -60,11 +64,17 @@ def _bad_between_corners(mesh: Mesh, points: np.ndarray) -> np.ndarray:
     """Mark second-order hexes that are invalid between corners that are not inverted, (m,) bool."""
     assert mesh.mid_nodes is not None
     sound = (corner_determinants(points, mesh.hexes) > 0).all(axis=1) & (mesh.mid_nodes >= 0).any(axis=1)
-    return sound & (certify(points, mesh.hexes, mesh.mid_nodes) != Validity.VALID)
+    return sound & _invalid(points, mesh, np.arange(mesh.n_hexes))
+
+
+def _invalid(points: np.ndarray, mesh: Mesh, hexes: np.ndarray) -> np.ndarray:
+    """Mark the hexes among some (k,) that are not valid everywhere, (k,) bool."""
+    assert mesh.mid_nodes is not None
+    return certify(points, mesh.hexes[hexes], mesh.mid_nodes[hexes]) != Validity.VALID
 
 
 def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:
-    """Mark the nodes that stay: on the boundary, on interfaces, pinned, or shared with other cells, (n,) bool."""
+    """Mark nodes that stay: on the boundary, on interfaces, pinned or between such, of other cells, (n,) bool."""
     assert mesh.mid_nodes is not None
     across = mesh.topology.face_neighbours[: mesh.n_hexes]
     outer = across < 0
@@ -77,4 +87,8 @@ def _kept_mid_nodes(mesh: Mesh) -> np.ndarray:
     kept[nodes[nodes >= 0]] = True
     for cells in mesh.cells:
         kept[cells.nodes] = True
+    if mesh.pinned is not None:  # mid-nodes all of whose corners are pinned
+        for column, weights in enumerate(MID_NODE_WEIGHTS):
+            nodes = mesh.mid_nodes[mesh.pinned[mesh.hexes[:, weights > 0]].all(axis=1), column]
+            kept[nodes[nodes >= 0]] = True
     return kept

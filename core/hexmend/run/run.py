@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from hexmend.boundary import departures, surface_change
+from hexmend.doctor import PROBLEMS
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, Layers
 from hexmend.locking import describe_overlap
@@ -82,6 +83,7 @@ class Run(Iterator[Iteration]):
         start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
+        self._raised: Mesh | None = None  # see `raise_mid_nodes`
         self._stage_runs = [self._stage_of(self._stages[0], 1, start, start)]
         self.start = replace(start, surface=self._stage_run.start_surface)
         self.history = [self.start.row()]
@@ -151,6 +153,13 @@ class Run(Iterator[Iteration]):
                 self._stage_run.end(Outcome.STOPPED)
             self.outcome = Outcome.STOPPED
 
+    def raise_mid_nodes(self) -> None:
+        """Move the mid-nodes of the result where hexes are invalid between sound corners; those of iterations stay."""
+        mesh = self._result_mesh
+        if mesh.mid_nodes is not None and self.best.quality.n_invalid:
+            raised = PROBLEMS["mid-nodes"].mend(mesh)
+            self._raised = None if raised is mesh else raised.with_element_target(mesh.element_target)
+
     @property
     def last(self) -> Iteration:
         """See the class."""
@@ -208,7 +217,7 @@ class Run(Iterator[Iteration]):
     def _message(
         self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume], walls: tuple[LayerReport, ...]
     ) -> str:
-        at, inverted, invalid = self.last, self.best.quality.n_inverted, self.best.quality.n_invalid
+        at, inverted, invalid = self.last, after.inverted, after.invalid
         text = self.outcome.value if self.outcome is not None else "Running."
         left = invalid_phrase(inverted, invalid, nouns(self.mesh.elements))
         cut_short = self.outcome is None or self.outcome.is_cut_short  # else the last step may be back to the result
@@ -221,12 +230,16 @@ class Run(Iterator[Iteration]):
         if not self._kept_last:
             words.append(kept_message(self.best.number))
         words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
+        if self._raised is not None:
+            valid = count_phrase(self.best.quality.n_invalid - invalid, "hex", "hexes")
+            words.append(f"Mid-nodes inside the mesh were moved, which made {valid} of second order valid.")
         target_q = self._target_q
         words.append(describe_regressions(before, after, target_q))
         if not invalid:
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
         else:
-            words.append(name_invalid(self.mesh.with_points(self.best.points), self.best.quality))
+            mesh = self._result_mesh
+            words.append(name_invalid(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes)))
             words.append(describe_overlap(self.mesh))
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))
@@ -234,6 +247,8 @@ class Run(Iterator[Iteration]):
 
     @property
     def _result_mesh(self) -> Mesh:
+        if self._raised is not None:
+            return self._raised
         return self.mesh.with_points(self.best.points).with_element_target(self._stage_run.target)
 
     @property
@@ -294,8 +309,8 @@ class Run(Iterator[Iteration]):
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
-        mesh = self.mesh.with_points(self.best.points)
-        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
+        quality = None if self._raised is not None else self.best.quality
+        return summarise(self.mesh, self.start.quality), summarise(self._result_mesh, quality)
 
     def _stage_of(self, stage: Stage, number: int, start: Iteration, last: Iteration, *old: StageRun) -> StageRun:
         """Begin a stage; its target is made from the mesh as given, whatever earlier stages have done."""

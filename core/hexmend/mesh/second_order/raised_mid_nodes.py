@@ -31,6 +31,9 @@ _MARGIN = 0.01
 #: Iterations after which the floors rise: patches whose hexes can be valid need 10 to 20.
 _ITERATIONS = 20
 
+#: Hexes of a patch above which its mid-nodes are only put halfway: the others take seconds.
+_LARGEST_PATCH = 500
+
 
 class Patch:
     """Second-order hexes around free mid-nodes.
@@ -91,19 +94,29 @@ class Patch:
         return float(value), total[self._free]
 
     def raised(self, halfway: np.ndarray) -> np.ndarray:
-        """Find positions (f, 3) at which no hex is lower than as given, from these or from others (f, 3)."""
-        x, floors = self.start, self.least(self.start)
-        if (self.least(halfway) >= floors).all():
-            x = halfway
+        """Find positions (f, 3) at which no hex is lower than as given; they begin as given, or at others (f, 3)."""
+        floors = self.least(self.start)
+        x = self.without_lower(halfway)
         begin = min(x, halfway, key=lambda each: self.barrier(each, floors)[0])
         while (floors := self.least(x)).min() < _GOAL:
             new = self._minimised(begin, floors)
-            steps = (x + 0.5**k * (new - x) for k in range(10))
-            begin = next((step for step in steps if (self.least(step) >= floors).all()), x)
-            x, gains = begin, (self.least(begin) - floors)[floors < _GOAL]
-            if gains.mean() < _MARGIN:
+            steps = [self._without_lower(x + 0.5**k * (new - x), x, floors) for k in range(5)]
+            x = begin = max(steps, key=lambda step: self.least(step).sum())
+            if (self.least(x) - floors)[floors < _GOAL].mean() < _MARGIN:
                 break
         return x
+
+    def without_lower(self, new: np.ndarray) -> np.ndarray:
+        """Return new positions (f, 3), but those as given of nodes of hexes that would be lower than as given."""
+        return self._without_lower(new, self.start, self.least(self.start))
+
+    def _without_lower(self, new: np.ndarray, x: np.ndarray, floors: np.ndarray) -> np.ndarray:
+        """Return new positions (f, 3), but those at x (f, 3) of nodes of hexes that would be below their floor (k,)."""
+        new = new.copy()
+        while (lower := self.least(new) < floors).any():
+            back = mask(self._local[lower].ravel(), self._free.size)[self._free]
+            new[back] = x[back]
+        return new
 
     def _minimised(self, begin: np.ndarray, floors: np.ndarray) -> np.ndarray:
         """Minimise the barrier of floors (k,) from positions (f, 3); the unknowns are moves in edge lengths."""
@@ -130,7 +143,7 @@ def are_low(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.
 
 
 def raised_mid_nodes(
-    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, low: np.ndarray, kept: np.ndarray, rings: int
+    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, low: np.ndarray, kept: np.ndarray, rings: int | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Find positions of mid-nodes around hexes that raise their least det J.
 
@@ -143,8 +156,9 @@ def raised_mid_nodes(
         The hexes. Their mid-nodes begin as given or halfway between the corners, where that is better.
     kept : (n,) bool
         Mid-nodes that stay.
-    rings : int
-        Rings of hexes, each sharing mid-nodes with the last, whose mid-nodes move too.
+    rings : int or None
+        Rings of hexes, each sharing mid-nodes with the last, whose mid-nodes move too. None puts mid-nodes of the hexes
+        halfway, where that makes no hex lower, and minimises nothing.
 
     Yields
     ------
@@ -159,7 +173,7 @@ def raised_mid_nodes(
     rows, columns = np.nonzero(low[:, None] & free[mid_nodes])
     halfway, region = points.copy(), low
     halfway[mid_nodes[rows, columns]] = np.einsum("kc,kcx->kx", MID_NODE_WEIGHTS[columns], points[hexes[rows]])
-    for _ in range(rings):
+    for _ in range(rings or 0):
         region = (mask(mid_nodes[region], free.size)[mid_nodes] & (mid_nodes >= 0)).any(axis=1)
     free &= mask(mid_nodes[region], free.size)
     rows, columns = np.nonzero(free[mid_nodes])
@@ -168,4 +182,6 @@ def raised_mid_nodes(
     for number in np.unique(patches[some]):
         patch = some[patches[some] == number]
         found = Patch(points, hexes[patch], mid_nodes[patch], free)
-        yield patch, found.nodes, found.raised(halfway[found.nodes])
+        start = halfway[found.nodes]
+        minimise = rings is not None and patch.size <= _LARGEST_PATCH
+        yield patch, found.nodes, found.raised(start) if minimise else found.without_lower(start)

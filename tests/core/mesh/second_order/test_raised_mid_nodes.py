@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend import io
+from hexmend import fix_outside, io, smooth
 from hexmend.doctor import repair
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.bernstein import coefficients, gradient, least_coefficients
@@ -124,3 +124,28 @@ def test_bent_hexes_are_no_other_order():
     mesh = bent(0.4)
     assert in_order(mesh.points, mesh.hexes, mesh.mid_nodes) is None
     assert in_order(mesh.points, mesh.hexes, np.full((mesh.n_hexes, 19), -1, np.int32)) is None
+
+
+def test_smooth_moves_mid_nodes_after_the_corners_and_not_outside_its_region():
+    mesh = invalid_shell()
+    result = smooth(mesh)
+    assert (result.before.invalid, result.after.invalid) == (8, 0)
+    assert "Mid-nodes inside the mesh were moved, which made 8 hexes of second order valid." in result.message
+    assert summarise_second_order(result.mesh).invalid == 0
+    part = fix_outside(mesh, [0])
+    after = smooth(part)
+    assert 0 < after.after.invalid < 8
+    for column, weights in enumerate(MID_NODE_WEIGHTS):
+        outside = mesh.mid_nodes[part.pinned[mesh.hexes[:, weights > 0]].all(axis=1), column]
+        np.testing.assert_array_equal(after.mesh.points[outside], mesh.points[outside])
+
+
+def test_hexes_with_inverted_corners_beside_bent_ones_stay_as_they_are():
+    mesh = bent(0.3)
+    points, corner = mesh.points.copy(), int(mesh.hexes[13, 6])
+    points[corner] += 1.5
+    mesh = mesh.rebuilt(points=points)
+    after, _ = repair(mesh, ["mid-nodes"])
+    before, now = (certify(each.points, each.hexes, each.mid_nodes) == Validity.VALID for each in (mesh, after))
+    assert now[before].all()
+    np.testing.assert_array_equal(after.points[corner], points[corner])
