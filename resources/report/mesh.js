@@ -48,23 +48,29 @@ class HexMesh {
     this.centres = this.findCentres(this.states[0].points);
   }
 
-  /** Node at a corner of a face. */
-  node(hex, face, corner) {
-    return this.hexes[8 * hex + FACES[face][corner]];
+  /** Return the nodes of a face: four, of which a triangle repeats its last; two or one of a face that a cell lacks. */
+  nodes(hex, face) {
+    const nodes = [...new Set(FACES[face].map((corner) => this.hexes[8 * hex + corner]))];
+    return nodes.length === 3 ? [...nodes, nodes[2]] : nodes;
   }
 
   /** Return the neighbour of each hex across each face, (6 m); -1 at the boundary. */
   findNeighbours() {
     const neighbours = new Int32Array(6 * this.count).fill(-1);
-    const keys = new Int32Array(4 * neighbours.length); // nodes of each face in ascending order
+    const keys = new Int32Array(4 * neighbours.length).fill(-1); // nodes of each face in ascending order
     const first = new Int32Array(this.states[0].points.length / 3).fill(-1); // last visited face by smallest node
     const next = new Int32Array(neighbours.length).fill(-1); // previous face with the same smallest node
     for (let place = 0; place < neighbours.length; place++) {
       const hex = Math.floor(place / 6);
-      const nodes = [0, 1, 2, 3].map((corner) => this.node(hex, place % 6, corner)).sort((a, b) => a - b);
+      const nodes = [...new Set(this.nodes(hex, place % 6))].sort((a, b) => a - b);
+      if (nodes.length < 3) {
+        neighbours[place] = hex; // not drawn
+        continue;
+      }
       keys.set(nodes, 4 * place);
+      const same = (other) => [0, 1, 2, 3].every((k) => keys[4 * place + k] === keys[4 * other + k]);
       let other = first[nodes[0]];
-      while (other >= 0 && !nodes.every((node, k) => node === keys[4 * other + k])) other = next[other];
+      while (other >= 0 && !same(other)) other = next[other];
       if (other >= 0 && neighbours[other] < 0) {
         neighbours[place] = Math.floor(other / 6);
         neighbours[other] = hex;

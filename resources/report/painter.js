@@ -11,7 +11,7 @@ uniform float between;
 out vec3 place;
 out vec2 corner;
 flat out float value;
-flat out uint hex, kind;
+flat out uint hex, kind, triangle;
 void main() {
   vec4 seen = view * vec4(mix(before, after, between), 1.0);
   place = seen.xyz;
@@ -20,7 +20,8 @@ void main() {
   corner = vec2(k == 1 || k == 2 ? 1.0 : 0.0, k >= 2 ? 1.0 : 0.0);
   value = mix(values.x, values.y, between);
   hex = hexAndKinds.x;
-  kind = between < 0.5 ? hexAndKinds.y & 3u : hexAndKinds.y >> 2u;
+  kind = (between < 0.5 ? hexAndKinds.y : hexAndKinds.y >> 2u) & 3u;
+  triangle = hexAndKinds.y >> 4u;
 }`;
 
 const FRAGMENT = `#version 300 es
@@ -28,7 +29,7 @@ precision highp float;
 in vec3 place;
 in vec2 corner;
 flat in float value;
-flat in uint hex, kind;
+flat in uint hex, kind, triangle;
 uniform sampler2D map;
 uniform vec3 inverted, inside;
 uniform uint chosen;
@@ -48,7 +49,10 @@ void main() {
   vec2 wide = fwidth(corner);
   vec2 away = min(corner, 1.0 - corner) / max(wide, vec2(1e-6)); // in pixels
   float thick = hex == chosen ? 2.4 : 0.55;
-  float line = 1.0 - smoothstep(thick - 0.5, thick + 0.7, min(away.x, away.y));
+  float slope = corner.x - corner.y; // 0 on the third edge of a triangle
+  float near = min(away.x, away.y);
+  if (triangle == 1u) near = min(near, abs(slope) / max(fwidth(slope), 1e-6));
+  float line = 1.0 - smoothstep(thick - 0.5, thick + 0.7, near);
   float fade = smoothstep(1.5, 9.0, 1.0 / max(max(wide.x, wide.y), 1e-6)); // fade the edges of small faces
   float ink = hex == chosen ? line : line * fade * edges * 0.55;
   colour = vec4(mix(base * light, vec3(0.106, 0.122, 0.165), ink), 1.0) * opacity;
@@ -110,10 +114,11 @@ class Painter {
     places.forEach((face, k) => {
       const hex = Math.floor(face / 6);
       const values = states.map((state) => place(state, hex));
-      const kinds = before.kinds[hex] | (after.kinds[hex] << 2);
+      const nodes = mesh.nodes(hex, face % 6);
+      const kinds = before.kinds[hex] | (after.kinds[hex] << 2) | (nodes[2] === nodes[3] ? 1 << 4 : 0);
       for (let corner = 0; corner < 4; corner++) {
         const at = STRIDE * (4 * k + corner);
-        const node = 3 * mesh.node(hex, face % 6, corner);
+        const node = 3 * nodes[corner];
         for (let axis = 0; axis < 3; axis++) {
           floats[at + axis] = before.points[node + axis];
           floats[at + 3 + axis] = after.points[node + axis];

@@ -7,7 +7,7 @@ function linkTables(section, viewer) {
       const button = element("button", cell.textContent);
       button.type = "button";
       button.title = "Show this hex";
-      const hex = Number(cell.textContent.replaceAll(",", ""));
+      const hex = parseInt(cell.textContent.replaceAll(",", ""), 10);
       button.addEventListener("click", () => viewer.approach(hex, Number(table.dataset.version)));
       cell.replaceChildren(button);
     }

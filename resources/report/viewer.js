@@ -140,7 +140,7 @@ class Viewer {
     this.bar(kind, table);
     for (const name of ["at", "other"]) is[name].disabled = !cut;
     const count = shown.reduce((sum, flag) => sum + flag, 0);
-    is.count.textContent = `${count.toLocaleString("en")} of ${mesh.count.toLocaleString("en")} hexes`;
+    is.count.textContent = `${count.toLocaleString("en")} of ${mesh.count.toLocaleString("en")} ${mesh.head.nouns[1]}`;
     is.bounds.textContent = ends.every((end) => !Number.isFinite(end)) ? "all" : bounds.map(figure).join(" to ");
     this.tell();
     this.soon();
@@ -166,7 +166,7 @@ class Viewer {
     const share = this.between;
     is.moment.textContent = share <= 0 ? names[0] : share >= 1 ? names[1] : `${Math.round(100 * share)} % from before to after`;
     if (chosen < 0) {
-      is.told.textContent = "Click a hex to show its number and values.";
+      is.told.textContent = `Click a ${mesh.head.nouns[0]} to show its number and values.`;
       return;
     }
     const [first, second] = [...new Set(this.states)].map((state) => {
@@ -175,7 +175,8 @@ class Viewer {
       return `${values}${["", ", inverted", ", invalid inside"][mesh.states[state].kinds[chosen]]}`;
     });
     const after = second ? `; ${names[1]}: ${second}` : "";
-    is.told.textContent = `Hex ${chosen.toLocaleString("en")} – ${names[0]}: ${first}${after}.`;
+    const noun = mesh.head.nouns[0];
+    is.told.textContent = `${noun[0].toUpperCase()}${noun.slice(1)} ${chosen.toLocaleString("en")} – ${names[0]}: ${first}${after}.`;
   }
 
   /** Choose the hex at a position on the canvas, in CSS pixels. */

@@ -143,7 +143,7 @@ class CameraView(QWidget):
         if self.viewport.frame is None:
             return
         mesh = self.viewport.frame.mesh
-        self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
+        self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.elements[list(hexes)]]))
 
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()

@@ -139,7 +139,7 @@ class Canvas(CameraView):
     def shows(self, mesh: Mesh) -> bool:
         """Return True if the hexes of a mesh are drawn; positions of nodes may differ."""
         frame = self.viewport.frame
-        return frame is not None and frame.mesh.hexes is mesh.hexes
+        return frame is not None and frame.mesh.elements is mesh.elements
 
     def show_handles(self, handles: bool, at: int) -> None:
         """Show or hide the handles of the cut; a cut by planes has handles at the plane with index `at` alone."""

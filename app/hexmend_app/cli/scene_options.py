@@ -49,8 +49,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw layers, with commas between them: irregular, boundary, sharp, fixed, free, locked, kinds, others, "
-        "or an additional layer",
+        help="draw layers, with commas between them: irregular, boundary, sharp, fixed, free, locked, kinds, or "
+        "an additional layer",
     )
     text = "another key of a scene file, as in page.margin=5 or cut.sphere='{ radius = 2 }'"
     parser.add_argument("--key", metavar="TABLE.KEY=VALUE", action="append", default=[], help=text)

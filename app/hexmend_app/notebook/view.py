@@ -48,13 +48,14 @@ def plotter(mesh: Mesh, metric: str = "q", *, hexes: Sequence[int] | np.ndarray 
     import pyvista as pv
 
     from hexmend_app.scene.colour.pyvista_colours import add_coloured
+    from hexmend_app.scene.geometry.coloured_polygons import polygons
     from hexmend_app.scene.geometry.skin import Skin
 
     quantity, quality = find_metric(metric), measure_mesh(mesh)
     values = quantity.values(mesh, quality)
     colouring = resolve(Colours(metric=quantity.name), values, quality.invalid)
     faces = Skin(mesh).visible(None if hexes is None else _marks(mesh, hexes))
-    skin = pv.PolyData.from_regular_faces(faces.places(mesh.points), faces.quads)
+    skin = polygons(faces.places(mesh.points), faces.quads)
     result = pv.Plotter(**options)
     kinds = invalid_kinds(quality)
     add_coloured(result, result.add_mesh, skin, values[faces.hexes], kinds[faces.hexes], colouring)
@@ -113,7 +114,7 @@ def _marks(mesh: Mesh, hexes: Sequence[int] | np.ndarray) -> np.ndarray:
     chosen = region(mesh, hexes=hexes)
     if not chosen.size:
         raise MeshError("there are no hexes to show: the selection is empty")
-    return mask(chosen, mesh.n_hexes)
+    return mask(chosen, mesh.n_elements)
 
 
 def _opens_window(options: dict[str, Any]) -> bool:

@@ -70,7 +70,7 @@ class Structure:
     Parameters
     ----------
     on : frozenset of str
-        Names: irregular, boundary, sharp, fixed, free, locked, kinds, original, others, curved, or additional layers.
+        Names: irregular, boundary, sharp, fixed, free, locked, kinds, original, curved, or additional layers.
     """
 
     on: frozenset[str] = ON_BY_DEFAULT
@@ -179,5 +179,5 @@ class Look(ConfigTable):
         ParameterError
             If a listed hex does not exist in the mesh.
         """
-        self.show.check_numbers(mesh.n_hexes)
+        self.show.check_numbers(mesh.n_elements)
         return dataclasses.replace(self, cut=self.cut.on(mesh))

@@ -158,9 +158,9 @@ class Cut(ConfigTable):
         ParameterError
             If a listed hex does not exist in the mesh.
         """
-        if self.largest_hex >= mesh.n_hexes:
+        if self.largest_hex >= mesh.n_elements:
             raise ParameterError(
-                f"[cut] names hex {self.largest_hex}: expected one of the mesh, below {mesh.n_hexes:,}"
+                f"[cut] names hex {self.largest_hex}: expected one of the mesh, below {mesh.n_elements:,}"
             )
         if self.absolute:
             return self

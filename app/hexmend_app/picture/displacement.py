@@ -47,7 +47,7 @@ class DisplacementQuantity(HexQuantity):
 
 def _of_nodes(movement: Displacement, distances: np.ndarray, combine: Callable[..., np.ndarray]) -> np.ndarray:
     """Combine node distances (n,), in the mesh's unit, into one value a hex (m,), in mean edge lengths."""
-    return combine((distances / movement.unit).take(movement.mesh.hexes), axis=1)
+    return combine((distances / movement.unit).take(movement.mesh.elements), axis=1)
 
 
 _QUANTITIES = (

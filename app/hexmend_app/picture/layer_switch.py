@@ -51,7 +51,7 @@ def _load() -> None:
 LAYERS: Registry[LayerSwitch] = Registry("layer", _load)
 
 #: Layers that are on until the user switches them off.
-ON_BY_DEFAULT = frozenset({"others", "curved"})
+ON_BY_DEFAULT = frozenset({"curved"})
 
 #: Layers that draw edges found by the structure of the mesh.
 EDGE_LAYERS = ("irregular", "boundary", "sharp")

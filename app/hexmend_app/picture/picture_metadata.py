@@ -170,9 +170,9 @@ def _texts(path: Path) -> dict[str, str]:
 
 def digest(mesh: Mesh) -> str:
     """Return a digest of 64 hexadecimal digits, equal only for meshes with the same hexes and node positions."""
-    sha = hashlib.sha256(f"{mesh.n_nodes} {mesh.n_hexes}".encode())
+    sha = hashlib.sha256(f"{mesh.n_nodes} {mesh.n_elements}".encode())
     sha.update(np.ascontiguousarray(mesh.points, dtype="<f8").data)
-    sha.update(np.ascontiguousarray(mesh.hexes, dtype="<i8").data)
+    sha.update(np.ascontiguousarray(mesh.elements, dtype="<i8").data)
     return sha.hexdigest()
 
 

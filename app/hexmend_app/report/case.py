@@ -89,7 +89,7 @@ class Version:
     @classmethod
     def of(cls, name: str, mesh: Mesh, row: Row | None = None, result: Result | None = None) -> Version:
         """Measure a mesh, the result of a run if there is one."""
-        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+        quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
         outcome = (result.history, advise(result)) if result is not None else ()
         return cls(name, mesh, quality, summarise(mesh, quality), row, *outcome)
 

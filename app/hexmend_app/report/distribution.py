@@ -24,21 +24,24 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """Values of the hexes of a mesh; hexes that are inverted, or have no value, are only counted.
+    """Values of the cells of a mesh; inverted cells are only counted, cells without a value, NaN, left out.
 
     Parameters
     ----------
     values : (k,) float64
-        Values of the other hexes, ascending.
+        Values of the other cells, ascending.
     inverted : int
+    noun : str
+        Word for one of the cells.
     """
 
     values: np.ndarray
     inverted: int
+    noun: str = "hex"
 
     @classmethod
-    def of(cls, values: np.ndarray, inverted: np.ndarray) -> Distribution:
-        """Return the distribution of values, (m,) float; `inverted`, (m,) bool, is True for inverted hexes.
+    def of(cls, values: np.ndarray, inverted: np.ndarray, noun: str = "hex") -> Distribution:
+        """Return the distribution of values, (m,) float; `inverted`, (m,) bool, is True for inverted cells.
 
         Raises
         ------
@@ -50,11 +53,11 @@ class Distribution:
             shapes = f"values have shape {values.shape} and inverted {inverted.shape}"
             raise ValueError(f"{shapes}: expected 1-D arrays of the same length")
         valid = np.sort(values[~(inverted | np.isnan(values))])
-        return cls(valid, len(values) - len(valid))
+        return cls(valid, int(np.count_nonzero(inverted)), noun)
 
     @property
     def total(self) -> int:
-        """Number of hexes."""
+        """Number of cells that are inverted or have a value."""
         return len(self.values) + self.inverted
 
     @property

@@ -8,6 +8,7 @@ from math import ceil, sqrt
 from pathlib import Path
 
 from hexmend.errors import ParameterError
+from hexmend.mesh.solid_cells import count_cells
 from hexmend.report.comparison import comparison_rows, comparison_table
 from hexmend.report.documents import write_documents
 from hexmend.report.tables import Table
@@ -147,7 +148,7 @@ def table_of(case: Case) -> Table:
     summary = case.initial.summary
     columns = {version.name: version.record(case.norm) for version in case.versions}
     columns |= {row.method: row.record(case.norm) for row in case.failed}
-    title = f"{case.name}: {summary.hexes:,} hexes, {summary.free_nodes:,} free nodes"
+    title = f"{case.name}: {count_cells(case.initial.mesh.elements)}, {summary.free_nodes:,} free nodes"
     return comparison_table(title, columns)
 
 

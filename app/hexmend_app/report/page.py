@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from hexmend import __version__
 from hexmend.io.storage.atomic import atomic_write
+from hexmend.mesh.solid_cells import count_cells
 from hexmend.quality.regressions import describe_regressions
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.tables import Table
@@ -96,7 +97,8 @@ def draw_chapter(
     if not interactive:  # on paper the table is on the first page
         sections = {"Quality": sections.pop("Quality"), **sections}
     first, last = case.initial.summary, case.versions[-1].summary
-    row = [case.name, format_count(first.hexes), _change(first.invalid, last.invalid, format_count)]
+    cells = count_cells(case.initial.mesh.elements).removesuffix(" hexes").removesuffix(" hex")
+    row = [case.name, cells, _change(first.invalid, last.invalid, format_count)]
     row += [_change(one, other, format_quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
@@ -139,7 +141,7 @@ def _preface(case: Case) -> str:
     first = case.initial.summary
     sentences = [
         *_worse(case),
-        f"{format_count(first.hexes)} hexes and {format_count(first.nodes)} nodes, "
+        f"{count_cells(case.initial.mesh.elements)} and {format_count(first.nodes)} nodes, "
         f"{format_count(first.free_nodes)} of them free.",
         *(
             f"{version.name}: {invalid_counts(version.summary.inverted, version.summary.invalid)}, "

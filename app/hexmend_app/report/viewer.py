@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
+from hexmend.mesh.solid_cells import TETRAHEDRON, WEDGE, nouns, rows_by_kind
 from hexmend.quality import METRICS, Metric
+from hexmend.terminal_text import count_phrase
 from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.picture.colours import Colours
 from hexmend_app.report.case import Version
@@ -47,8 +49,9 @@ def viewer(versions: Sequence[Version], picture: Markup) -> Markup:
         Shown without WebGL and in print.
     """
     mesh = versions[0].mesh
-    if mesh.n_hexes > MOST_HEXES:
-        message = f"This mesh is too large to be interactive: {mesh.n_hexes:,} hexes, at most {MOST_HEXES:,}."
+    if mesh.n_elements > MOST_HEXES:
+        cells = count_phrase(mesh.n_elements, *nouns(mesh.elements))
+        message = f"This mesh is too large to be interactive: {cells}, at most {MOST_HEXES:,}."
         message += " Open it in the viewer: hexmend MESH"
         return Markup('<div class="viewer">{}<p class="cannot screen">{}</p></div>').format(picture, message)
     head, blob = packed(versions)
@@ -76,7 +79,8 @@ def packed(versions: Sequence[Version]) -> tuple[dict[str, Any], str]:
     arrays = _Arrays()
     kinds, values = zip(*(_metric(one, versions) for one in METRICS.values()), strict=True)
     head = {
-        "hexes": arrays.add(np.diff(mesh.hexes, axis=0, prepend=0).astype(np.int32)),
+        "hexes": arrays.add(np.diff(_as_hexes(mesh.elements), axis=0, prepend=0).astype(np.int32)),
+        "nouns": nouns(mesh.elements),
         "box": {"low": ((low - middle) / size).tolist(), "high": ((high - middle) / size).tolist()},
         "metrics": kinds,
         "states": [
@@ -92,6 +96,15 @@ def packed(versions: Sequence[Version]) -> tuple[dict[str, Any], str]:
         "apart": [special.colour for special in INVALID_COLOURS],
     }
     return head, arrays.blob()
+
+
+def _as_hexes(elements: np.ndarray) -> np.ndarray:
+    """Return cells (m, 8) as hexes with collapsed edges, whose faces are those of the cells or have no area."""
+    answer = elements.copy()
+    for kind, rows in rows_by_kind(elements):
+        if kind is WEDGE or kind is TETRAHEDRON:
+            answer[rows] = elements[rows][:, [0, 1, 2, 2, 3, 4, 5, 5]]
+    return answer
 
 
 class _Arrays:

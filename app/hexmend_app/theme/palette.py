@@ -104,7 +104,6 @@ GHOST = Role("#6f7b8b", "#aab4c1")
 ORIGINAL = Role("#0072b2", "#6cb9f0")  # boundary of the mesh as opened
 TARGET = Role("#e69f00", "#f0b53c")  # surface of a file on which the boundary slides
 INTERFACE = Role("#aa4499", "#e07fd0")  # faces between materials
-OTHER_CELLS = Role("#5f6670", "#b9bfc8")  # tetrahedra, pyramids and wedges
 SHARP = Role("#1b1f2a", "#0c0e13")
 SILHOUETTE = Role("#7d8797", "#8d97a5")
 SHADE = Role("#d9dfe8", "#3e4651")  # slightly different from the background

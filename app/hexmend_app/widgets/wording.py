@@ -8,8 +8,11 @@ from pathlib import Path
 
 from PySide6.QtCore import QLocale
 
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import HEXAHEDRON
 from hexmend.parameters import Parameter
 from hexmend.quantity import format_significant
+from hexmend.summary import Summary
 from hexmend_app.translation import tr
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
@@ -124,5 +127,30 @@ def counted(number: int, noun: str) -> str:
     >>> counted(1, "node"), counted(1234, "node"), counted(2, "hex")
     ('1 node', '1,234 nodes', '2 hexes')
     """
-    plural = noun + ("es" if noun.endswith("x") else "s")
-    return f"{number:,} {tr(noun if number == 1 else plural)}"
+    return f"{number:,} {tr(noun) if number == 1 else plural(noun)}"
+
+
+def plural(noun: str) -> str:
+    """Return the plural of a noun, in the language of the program.
+
+    >>> plural("hex"), plural("tetrahedron")
+    ('hexes', 'tetrahedra')
+    """
+    if noun.endswith("hedron"):
+        return tr(noun.removesuffix("on") + "a")
+    return tr(noun + ("es" if noun.endswith("x") else "s"))
+
+
+def counted_cells(summary: Summary) -> str:
+    """Return the numbers of cells of each kind of a mesh: "943 hexes, 515 pyramids, 7,949 tetrahedra"."""
+    return ", ".join(counted(int(of["count"]), noun_of(kind)) for kind, of in summary.cells.items())
+
+
+def noun_of_cells(mesh: Mesh) -> str:
+    """Return the noun for the cells of a mesh: "hex" if there are no others, else "cell"."""
+    return "cell" if mesh.n_elements > mesh.n_hexes else "hex"
+
+
+def noun_of(kind: str) -> str:
+    """Return the noun for cells of a kind of `hexmend.mesh.solid_cells`."""
+    return "hex" if kind == HEXAHEDRON.name else kind

@@ -2,39 +2,47 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from hexmend.arrays import mask
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.collapsed_hexes import keep_hexes, renumbered_sets
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import solid_blocks
 
 
 def extract_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
-    """Return the mesh of some hexes: their nodes, and cells of lower dimension on these; sets and data are kept.
+    """Return the mesh of some cells: their nodes, and cells of lower dimension on these; sets and data are kept.
 
     Parameters
     ----------
     mesh : Mesh
     kept : (m,) bool
-        True for the hexes of the new mesh.
+        True for the cells of `Mesh.elements` in the new mesh.
 
     Returns
     -------
     Mesh
     """
+    ends = mesh.n_hexes + np.cumsum([0, *(len(block.nodes) for block in solid_blocks(mesh.cells))])
+    of_blocks = [kept[start:end] for start, end in pairwise(ends)]
+    solids = [_some_of(block, rows) for block, rows in zip(solid_blocks(mesh.cells), of_blocks, strict=True)]
+    kept = kept[: mesh.n_hexes]
     used = mask(mesh.hexes[kept], mesh.n_nodes)
     if mesh.mid_nodes is not None:
         mids = mesh.mid_nodes[kept]
         used[mids[mids >= 0]] = True
-    cells = tuple(_on_nodes(c, used) for c in mesh.cells if c.dimension < 3)
+    for block in solids:
+        used[block.nodes] = True
+    cells = (*solids, *(_some_of(c, used[c.nodes].all(axis=1)) for c in mesh.cells if c.dimension < 3))
     part = keep_hexes(mesh.rebuilt(cells=tuple(c for c in cells if len(c.nodes))), kept)
     return renumber_nodes(part, np.where(used, np.cumsum(used) - 1, -1))
 
 
-def _on_nodes(cells: Cells, used: np.ndarray) -> Cells:
-    """Cells whose nodes are all marked in `used`, (n,) bool, with their data and sets."""
-    kept = used[cells.nodes].all(axis=1)
+def _some_of(cells: Cells, kept: np.ndarray) -> Cells:
+    """Cells that are marked in `kept`, (k,) bool, with their data and sets."""
     data = {name: values[kept] for name, values in cells.data.items()}
     return Cells(
         cells.kind, cells.nodes[kept], data, renumbered_sets(cells.sets, np.where(kept, np.cumsum(kept) - 1, -1))

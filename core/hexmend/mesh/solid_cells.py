@@ -21,6 +21,7 @@ import numpy as np
 from hexmend.arrays import cross_products
 from hexmend.mesh import hexahedron
 from hexmend.mesh.cells import Cells
+from hexmend.terminal_text import count_phrase, listed
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,3 +278,14 @@ def edges_of(elements: np.ndarray) -> np.ndarray:
 def nouns(elements: np.ndarray) -> tuple[str, str]:
     """Return the word for one of these cells (m, 8) and for several: those of hexes if there is no other cell."""
     return ("cell", "cells") if kinds_of(elements).any() else ("hex", "hexes")
+
+
+def count_cells(elements: np.ndarray) -> str:
+    """Return the numbers of cells (m, 8) by kind as words: "3 hexes", "1 hex, 2 pyramids and 5 tetrahedra"."""
+    plurals = {HEXAHEDRON: "hexes", TETRAHEDRON: "tetrahedra"}
+    words = [
+        count_phrase(int(count), "hex" if kind is HEXAHEDRON else kind.name, plurals.get(kind))
+        for kind, count in zip(SOLID_KINDS, np.bincount(kinds_of(elements), minlength=4), strict=True)
+        if count
+    ]
+    return listed(words, "and")

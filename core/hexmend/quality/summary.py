@@ -175,7 +175,8 @@ class MetricStatistics:
 
     @classmethod
     def over(cls, metric: Metric, values: np.ndarray) -> MetricStatistics:
-        """Compute the statistics of a metric's values, (m,)."""
+        """Compute the statistics of a metric's values, (m,); NaN is no value."""
+        values = values[~np.isnan(values)]
         finite = values[np.isfinite(values)]
         low, mean, high = (float(of()) for of in (finite.min, finite.mean, finite.max)) if finite.size else [None] * 3
         unacceptable = int(np.count_nonzero(metric.unacceptable(values)))

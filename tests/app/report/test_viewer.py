@@ -4,6 +4,7 @@ import base64
 import gzip
 import os
 import signal
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -11,11 +12,13 @@ from markupsafe import Markup
 
 from hexmend import METHODS, METRICS, Run, StoppingCriteria, gallery
 from hexmend.cli.process.interrupts import ExitAfterIteration
+from hexmend.mesh.hexahedron import FACES
 from hexmend_app.report import case
 from hexmend_app.report import viewer as module
-from hexmend_app.report.case import run_methods
+from hexmend_app.report.case import Version, run_methods
 from hexmend_app.report.templates import html
 from hexmend_app.report.viewer import packed, viewer
+from tests.core.solid_lattices import mixed
 
 
 @pytest.fixture(scope="module")
@@ -114,3 +117,14 @@ def test_a_second_signal_after_the_last_iteration_keeps_what_the_run_reached(mon
         done = run_methods(mesh, None, methods, StoppingCriteria(max_iterations=1), watch=ask)
     assert done.interrupted
     assert [one.name for one in done.versions] == ["initial", "laplacian"]
+
+
+def test_the_faces_of_collapsed_hexes_are_those_of_cells_of_all_kinds():
+    mesh = mixed(3)
+    head, blob = packed([Version.of("original", mesh)])
+    assert head["nouns"] == ("cell", "cells")
+    rows = np.cumsum(array(blob, head["hexes"], "<i4").reshape(-1, 8), axis=0)
+    found = Counter(frozenset(face) for face in rows[:, FACES].reshape(-1, 4).tolist() if len(set(face)) > 2)
+    outside = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
+    assert {face for face, cells in found.items() if cells == 1} == outside
+    assert max(found.values()) == 2

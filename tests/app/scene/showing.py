@@ -9,7 +9,7 @@ MESH = grid(4)
 
 
 def figures_of(mesh):
-    return measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+    return measure(mesh.points, mesh.elements, mesh.mid_nodes)
 
 
 def frame_of(mesh, look=None, **tables):

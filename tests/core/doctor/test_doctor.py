@@ -25,6 +25,7 @@ from tests.core.doctor.faulty_meshes import (
     with_hexes,
 )
 from tests.core.grids import grid
+from tests.core.solid_lattices import mixed
 
 TROUBLES = [
     (Mesh(np.vstack([SOUND.points, [[9, 9, 9]]]), SOUND.hexes), "unused-nodes", 1, True),
@@ -400,7 +401,7 @@ def places(mesh, nodes):
 
 @given(st.lists(st.booleans(), min_size=M, max_size=M).map(np.array).filter(np.any))
 def test_hexes_keep_their_places_ids_sets_and_faces(kept):
-    part, rows = extract_hexes(MESH, kept), np.flatnonzero(kept)
+    part, rows = extract_hexes(MESH, np.append(kept, [False, False])), np.flatnonzero(kept)
     np.testing.assert_array_equal(part.points[part.hexes], MESH.points[MESH.hexes[rows]])
     assert part.topology.used.all()
     np.testing.assert_array_equal(part.hex_data["id"], MESH.hex_data["id"][rows])
@@ -421,7 +422,7 @@ def test_hexes_keep_their_places_ids_sets_and_faces(kept):
 
 @given(st.lists(st.booleans(), min_size=M, max_size=M).map(np.array).filter(np.any))
 def test_quads_on_the_hexes_stay_and_other_solid_cells_do_not(kept):
-    part = extract_hexes(MESH, kept)
+    part = extract_hexes(MESH, np.append(kept, [False, False]))
     assert all(cells.kind == "quad" for cells in part.cells)
     there = set(map(tuple, part.points.tolist()))
     expected = [q for q, quad in enumerate(BOUNDARY) if places(MESH, quad) <= there]
@@ -439,3 +440,14 @@ def test_mid_nodes_stay_with_their_hexes():
     part = extract_hexes(mesh, np.arange(M) == 5)
     assert part.n_nodes == 27
     np.testing.assert_array_equal(part.points[part.mid_nodes[0]], mesh.points[middle[5]])
+
+
+@pytest.mark.parametrize("last", [12, 72])
+def test_some_cells_of_all_kinds_are_extracted(last):
+    mesh = mixed(3)
+    kept = np.arange(72) % 3 == 0
+    kept[:last] &= last == 72  # without a hex too
+    part = extract_hexes(mesh, kept)
+    assert part.n_elements == kept.sum()
+    assert part.topology.used.all()
+    np.testing.assert_allclose(part.quality("volume"), mesh.quality("volume")[kept])

@@ -13,6 +13,7 @@ from hexmend.mesh.solid_cells import (
     WEDGE,
     cell_faces,
     corner_tetrahedra,
+    count_cells,
     edges_of,
     has_corner,
     has_node,
@@ -67,6 +68,7 @@ def test_kinds_follow_from_the_repeated_nodes():
     ])  # fmt: skip
     assert kinds_of(rows).tolist() == [0, 1, 2, 3, 0, 0, 0]
     assert has_node(rows)[:4].sum(axis=1).tolist() == [8, 6, 5, 4]
+    assert count_cells(rows) == "4 hexes, 1 wedge, 1 pyramid and 1 tetrahedron"
 
 
 def test_elements_are_the_hexes_themselves_in_a_mesh_of_hexes():

@@ -12,6 +12,7 @@ from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut import Cut
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.translation import tr
+from hexmend_app.widgets.wording import noun_of_cells
 
 
 class FeatureCut(Feature):
@@ -142,9 +143,10 @@ class FeatureCut(Feature):
             self.panel.restore(self._proposed)
             self._proposed = None
         self.panel.at_hex.setEnabled(self.session.selection.hex is not None)
-        self.inside.set_look(view.look, view.rings)
+        noun = noun_of_cells(document.now.mesh)
+        self.inside.set_look(view.look, view.rings, noun)
         if self.canvas is not None:
-            self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
+            self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_elements, noun)
 
     def _store_remaining_hexes(self) -> None:
         """Store the hexes that a cut by whole hexes has left, as far as the view has drawn the mesh."""
@@ -167,7 +169,8 @@ class FeatureCut(Feature):
         """Move the centre of the sphere to the selected hex."""
         mesh, h, sphere = self.session.document.now.mesh, self.session.selection.hex, self._view.look.cut.sphere
         if h is not None and sphere is not None:
-            self._view.drag_sphere(tuple(mesh.points[mesh.hexes[h]].mean(axis=0).tolist()), sphere.radius)
+            centre = mesh.points[[*dict.fromkeys(mesh.elements[h].tolist())]].mean(axis=0)
+            self._view.drag_sphere(tuple(centre.tolist()), sphere.radius)
 
     def _dig(self, h: int) -> None:
         if h == self.session.selection.hex:

@@ -95,8 +95,8 @@ class InsidePanel(QWidget):
         set_help(self.peel, tr("Peel layers"), tr(_PEEL) if layers else tr(_NO_LAYERS))
         self.peel.setEnabled(layers > 0)
 
-    def set_look(self, look: Look, rings: int) -> None:
-        """Show the settings of a look and the number of rings; emits no signal."""
+    def set_look(self, look: Look, rings: int, noun: str = "hex") -> None:
+        """Show the settings of a look and the number of rings, with a noun for cells; emits no signal."""
         show, isolate = look.show, look.show.isolate
         self._cut_smoothly = look.cut.smooth
         self._shrink.setEnabled(not self._cut_smoothly)
@@ -109,19 +109,19 @@ class InsidePanel(QWidget):
                     box.setValue(value)
         isolated = 0 if isolate is None else len(isolate.hexes)
         self.isolated.setText(
-            tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
+            tr("{count} isolated", count=counted(isolated, noun)) if isolated else tr("No hexes isolated")
         )
         self.all_button.setEnabled(isolate is not None)
         self.dug.setText(
-            tr("{count} hidden", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes hidden")
+            tr("{count} hidden", count=counted(len(show.hidden), noun)) if show.hidden else tr("No hexes hidden")
         )
         for button in (self.undo_button, self.restore_button):
             button.setEnabled(bool(show.hidden))
         self.outline.setChecked(show.outline)
 
-    def set_shown(self, shown: int, total: int) -> None:
+    def set_shown(self, shown: int, total: int, noun: str = "hex") -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""
-        count = counted(total, "hex")
+        count = counted(total, noun)
         if not total:
             self.shown.clear()
         elif shown and self._cut_smoothly:

@@ -107,7 +107,7 @@ class FeatureDoctor(Feature):
         if not len(hexes):
             is_named = np.zeros(mesh.n_nodes, dtype=bool)
             is_named[finding.nodes] = True
-            hexes = np.flatnonzero(is_named[mesh.hexes].any(axis=1))
+            hexes = np.flatnonzero(is_named[mesh.elements].any(axis=1))
         if len(hexes):
             self.session.view.isolate(hexes.tolist())
             self.session.selection.visit(*hexes.tolist())

@@ -18,9 +18,10 @@ from hexmend_app.theme.style import bold, check_box, on_theme_change, push_butto
 from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered, value_text
-from hexmend_app.widgets.wording import counted, figure
+from hexmend_app.widgets.wording import counted, figure, noun_of
 
-_FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
+#: Names of the faces of hexes; those of other cells are numbered.
+_FACES = {"hexahedron": ("x−", "x+", "y−", "y+", "z−", "z+")}
 _HINT = "Click a hex in the view, or press N for the worst hex, to see its metrics, nodes, corners and neighbours."
 _NODE_HELP = (
     "The energy is the sum of η(H)² over the hexes of the node (3.3). The arrow in the view is the direction of "
@@ -109,12 +110,14 @@ class HexPanel(QWidget):
         self._stack.setCurrentIndex(0 if details is None else 1)
         if details is None:
             return
-        self._title.setText(tr("Hex {number}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
+        title = f"{tr(noun_of(details.kind)).capitalize()} {details.number}"
+        self._title.setText(title + (f": {', '.join(tags)}" if tags else ""))
         self._state.setText(_state_text(details))
         self._show_tables()
+        no_links = {-1: tr("boundary"), details.number: tr("two cells")}
         links = (
-            f'{face}:&nbsp;<a href="{h}">{h}</a>' if h >= 0 else f"{face}:&nbsp;{tr('boundary')}"
-            for face, h in zip(_FACES, details.neighbours.tolist(), strict=True)
+            f'{face}:&nbsp;<a href="{h}">{h}</a>' if h not in no_links else f"{face}:&nbsp;{no_links[h]}"
+            for face, h in zip(_FACES.get(details.kind, "12345"), details.neighbours.tolist(), strict=False)
         )
         of_file = "" if details.file_id is None else tr("Number in the file: {id}", id=details.file_id) + "<br>"
         self.neighbours.setText(of_file + tr("Neighbours: {links}", links=" &nbsp;&nbsp;".join(links)))
@@ -152,11 +155,11 @@ class HexPanel(QWidget):
         name = tr("Node {number}", number=details.number)
         if details.file_id is not None:
             name = tr("{name} ({id} in the file)", name=name, id=details.file_id)
-        energy = tr("infinite energy (inverted hex)")
+        energy = tr("infinite energy (inverted {hex})", hex=tr(details.noun))
         if np.isfinite(details.energy):
             values = {"energy": figure(details.energy), "gradient": figure(float(np.linalg.norm(details.downhill)))}
             energy = tr("energy {energy}, gradient {gradient}", **values)
-        parts = (f"{name}: {kind}", boundary_class, counted(details.ring.size, "hex"), energy)
+        parts = (f"{name}: {kind}", boundary_class, counted(details.ring.size, details.noun), energy)
         self._about_node.setText(", ".join(filter(None, parts)))
         self._pin.setChecked(details.pinned)
         self._pin.setEnabled(details.kind != "unused" and not busy)
@@ -174,13 +177,13 @@ def _state_text(details: HexDetails) -> str:
 
 def _metric_row(metric: Metric, value: float) -> _Row:
     text = "∞" if value == np.inf else value_text(metric, value)
-    colour = WORSE if metric.unacceptable(np.array(value)) else TEXT
+    colour = WORSE if not np.isnan(value) and metric.unacceptable(np.array(value)) else TEXT
     return (escape(tr(metric.title)), TEXT), (text, colour)
 
 
 def _corner_rows(details: HexDetails) -> list[_Row]:
     """Return the head of the table of corners, and for each corner a link to its node, its kind and its quality."""
-    worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
+    worst = int(np.nanargmin(details.corners)) if np.ptp(details.corners[~np.isnan(details.corners)]) > 1e-9 else -1
     rows: list[_Row] = [((f"&#8203;{tr('Node')}", MUTED), ("", MUTED), ("q(T)", MUTED))]
     for k, (node, fixed, quality) in enumerate(zip(details.nodes, details.fixed, details.corners, strict=True)):
         link, kind = f'<a href="{node}">{node}</a>', tr("fixed") if fixed else tr("free")

@@ -27,15 +27,15 @@ from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import ComboBox
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.row_model import RowModel, shape_table
-from hexmend_app.widgets.wording import counted, figure
+from hexmend_app.widgets.wording import counted, figure, noun_of, noun_of_cells
 
 _ORDER = (
     "Metric that sorts the list after inverted hexes and those that are invalid inside, which come first; hexes of "
     "equal value are sorted by scaled Jacobian."
 )
-_TITLES = ("Hex", "In the file", "", "Scaled Jacobian", "State")
+_TITLES = ("Hex", "Kind", "In the file", "", "Scaled Jacobian", "State")
 #: Columns of the table.
-HEX, ID, VALUE, JACOBIAN, STATE = range(5)
+HEX, KIND, ID, VALUE, JACOBIAN, STATE = range(6)
 
 
 class WorstModel(RowModel):
@@ -52,7 +52,7 @@ class WorstModel(RowModel):
     worst: WorstHexes
 
     def __init__(self, parent: QObject | None = None):
-        super().__init__(len(_TITLES), (STATE,), parent)
+        super().__init__(len(_TITLES), (KIND, STATE), parent)
         self.rows = np.empty(0, np.int64)
         self.metric = ""
 
@@ -63,6 +63,8 @@ class WorstModel(RowModel):
 
     def title(self, column: int) -> str:
         """Return the title of a column."""
+        if column == HEX and self.rows.size and self.worst.kinds is not None:
+            return tr("Cell")
         return self.metric if column == VALUE else tr(_TITLES[column])
 
     def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -70,6 +72,8 @@ class WorstModel(RowModel):
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
                 return str(worst.hexes[row])
+            if column == KIND:
+                return "" if worst.kinds is None else tr(noun_of(worst.kinds[row]))
             if column == ID:
                 return "" if worst.ids is None else str(worst.ids[row])
             if column == STATE:
@@ -83,7 +87,9 @@ class WorstModel(RowModel):
 
 
 def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
-    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state, number in the file if it has one.
+    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state.
+
+    Columns follow of the numbers in the file, and of the kinds in a mesh of several, if there are any.
 
     Parameters
     ----------
@@ -98,11 +104,13 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
         If the suffix is not .csv or the file cannot be written; an existing file is left unchanged.
     """
     suffix_for(Path(path), "a list", (".csv",))
-    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes), metric), io.StringIO()
+    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.elements, mesh.mid_nodes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["hex", metric, "scaled-jacobian", "state", *(["id"] if worst.ids is not None else [])])
+    head = [name for name, values in (("id", worst.ids), ("kind", worst.kinds)) if values is not None]
+    writer.writerow(["hex", metric, "scaled-jacobian", "state", *head])
     columns = [worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states]
     columns += [worst.ids.tolist()] if worst.ids is not None else []
+    columns += [worst.kinds] if worst.kinds is not None else []
     writer.writerows(zip(*columns, strict=True))
     write_text(Path(path), out.getvalue())
 
@@ -161,7 +169,8 @@ class WorstList(QWidget):
         table.setModel(self._model)
         shape_table(table, tr("Worst hexes"), STATE)
         jacobian = tr("Scaled Jacobian")
-        for column, widest in ((HEX, "000,000,000"), (ID, "000000000"), (VALUE, jacobian), (JACOBIAN, jacobian)):
+        widths = {HEX: "000,000,000", KIND: "tetrahedron", ID: "000000000", VALUE: jacobian, JACOBIAN: jacobian}
+        for column, widest in widths.items():
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not currentChanged: the first row becomes current when the table gets the focus.
         table.selectionModel().selectionChanged.connect(self._on_selected)
@@ -264,9 +273,11 @@ class WorstList(QWidget):
         worst = WorstHexes.of(mesh, quality, metric.name)
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._table.setColumnHidden(ID, worst.ids is None)
+        self._table.setColumnHidden(KIND, worst.kinds is None)
         self._model.fill(worst, tr(metric.title))
-        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": quality.n_inverted, "invalid": quality.n_invalid}
-        if worst.hexes.size == mesh.n_hexes:
+        total = counted(mesh.n_elements, noun_of_cells(mesh))
+        counts = {"total": total, "inverted": quality.n_inverted, "invalid": quality.n_invalid}
+        if worst.hexes.size == mesh.n_elements:
             text = tr("{total}, {inverted:,} inverted, {invalid:,} invalid.", **counts)
         else:
             counts["listed"] = worst.hexes.size

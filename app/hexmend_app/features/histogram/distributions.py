@@ -17,7 +17,7 @@ from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.theme.palette import Role
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
-from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.wording import counted, plural
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +59,11 @@ class ShownHistogram:
     log: bool = False
     cumulative: bool = False
 
+    @property
+    def noun(self) -> str:
+        """Word for one of the cells."""
+        return self.shown[0].distribution.noun if self.shown else "hex"
+
     def _scale(self, one: Shown) -> float:
         return 100 / max(one.distribution.total, 1) if self.cumulative else 1.0
 
@@ -87,12 +92,13 @@ class ShownHistogram:
                     tr("{count:,} inverted", count=inverted),
                 )
             )
-        label = tr("% of hexes up to x") if self.cumulative else tr("hexes")
+        cells = plural(self.noun)
+        label = tr("% of {hexes} up to x", hexes=cells) if self.cumulative else cells
         return Histogram(series, title, self.axis.title, label, self.axis.ticks(), self.log)
 
     def csv_text(self, names: Mapping[str, str]) -> str:
         """Write the heights as CSV with a row per bin, and a column per distribution; `names` maps to printed names."""
-        prefix = tr("% of hexes up to: ") if self.cumulative else ""
+        prefix = tr("% of {hexes} up to: ", hexes=plural(self.noun)) if self.cumulative else ""
         titles = [prefix + (names.get(one.name) or one.name) for one in self.shown]
         low, high = [f"{edge:.7g}" for edge in self.axis.edges[:-1]], [f"{edge:.7g}" for edge in self.axis.edges[1:]]
         low[0], high[-1] = "-inf" if self.axis.below else low[0], "inf" if self.axis.above else high[-1]
@@ -129,7 +135,7 @@ class ShownHistogram:
         lines = [title]
         for one, count in zip(self.shown, counts, strict=True):
             share = f"{count * self._scale(one):.4g} %, " if self.cumulative else ""
-            lines.append(f"{one.name}: {share}{counted(int(count), 'hex')}")
+            lines.append(f"{one.name}: {share}{counted(int(count), self.noun)}")
         return "\n".join(lines)
 
 
@@ -138,8 +144,8 @@ def range_summary(now: Distribution | None, range: Show | None, inside: int) -> 
     if now is None:
         return tr("No mesh is open.")
     if range is not None:
-        return tr("{count:,} of {hexes} shown", count=now.within(range), hexes=counted(now.total, "hex"))
-    counts = {"hexes": counted(now.total, "hex"), "inverted": now.inverted, "inside": inside}
+        return tr("{count:,} of {hexes} shown", count=now.within(range), hexes=counted(now.total, now.noun))
+    counts = {"hexes": counted(now.total, now.noun), "inverted": now.inverted, "inside": inside}
     if inside:
         return tr("{hexes}, {inverted:,} inverted · {inside:,} invalid inside", **counts)
     return tr("{hexes}, {inverted:,} inverted", **counts)

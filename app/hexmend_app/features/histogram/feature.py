@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.storage.suffixes import suffix_for
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.quality import METRICS, measure
 from hexmend.report.documents import write_text
 from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
@@ -24,6 +26,7 @@ from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.view.side_views import Snapshot
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
+from hexmend_app.widgets.wording import noun_of, noun_of_cells
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
@@ -42,10 +45,11 @@ class FeatureHistogram(Feature):
         self._style = ChartStyle()  # of the last export
         self._initial: Distribution | None = None
         self._current: Distribution | None = None
-        #: Metric, points and distribution of the snapshots, by slot.
+        #: Metric with kind of cells, points and distribution of the snapshots, by slot.
         self._kept: dict[int, tuple[str, np.ndarray, Distribution]] = {}
         panel = self.panel = QualityHistogram()
         panel.head.metric_chosen.connect(self._on_metric)
+        panel.head.kind_chosen.connect(host.refresh_soon)
         panel.range_changed.connect(self._filter)
         panel.head.keep.clicked.connect(self._keep)
         panel.legend.renamed.connect(self._snapshots.rename)
@@ -94,12 +98,15 @@ class FeatureHistogram(Feature):
 
     def _count(self) -> None:
         start, now, snapshots = self._document.start, self._document.now, self._snapshots.all
-        if self._seen.changed("start", self.metric, start):
+        if self._seen.changed("kinds", kinds := tuple(now.summary.cells)):
+            self.panel.head.show_kinds(kinds)
+        kind = self.panel.head.kind
+        if self._seen.changed("start", self.metric, kind, start):
             self._initial = self._distribution(start)
-        if self._seen.changed("now", self.metric, now):
+        if self._seen.changed("now", self.metric, kind, now):
             self._current = self._distribution(now)
         colouring = self._colouring()
-        if self._seen.changed("all", self.metric, start, now, snapshots, colouring):
+        if self._seen.changed("all", self.metric, kind, start, now, snapshots, colouring):
             self._kept = {one.slot: self._distribution_of(one) for one in snapshots}
             kept = [(one.slot, one.name, self._kept[one.slot][2]) for one in snapshots]
             inside = now.quality.n_invalid - now.quality.n_inverted
@@ -113,7 +120,16 @@ class FeatureHistogram(Feature):
         return colouring
 
     def _distribution(self, state: MeasuredMesh) -> Distribution:
-        return Distribution.of(metric_values(self.metric, state.mesh, state.quality), state.quality.inverted)
+        values = metric_values(self.metric, state.mesh, state.quality)
+        return self._of_kind(state.mesh, values, state.quality.inverted)
+
+    def _of_kind(self, mesh: Mesh, values: np.ndarray, inverted: np.ndarray) -> Distribution:
+        """Return the distribution of values (m,) of the cells of the chosen kind."""
+        chosen = self.panel.head.kind
+        if not chosen:
+            return Distribution.of(values, inverted, noun_of_cells(mesh))
+        rows = {kind.name: rows for kind, rows in rows_by_kind(mesh.elements)}.get(chosen, slice(0))
+        return Distribution.of(values[rows], inverted[rows], noun_of(chosen))
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -139,13 +155,13 @@ class FeatureHistogram(Feature):
         self._snapshots.add("kept" if iteration is None else iteration.name, now)
 
     def _distribution_of(self, snapshot: Snapshot) -> tuple[str, np.ndarray, Distribution]:
-        """Return metric, points and distribution of a snapshot, computed only if metric or points have changed."""
-        known = self._kept.get(snapshot.slot)
-        if known is not None and known[0] == self.metric and known[1] is snapshot.points:
+        """Return what `_kept` holds of a snapshot, computed only if the metric, the kind or the points have changed."""
+        known, of = self._kept.get(snapshot.slot), f"{self.metric} {self.panel.head.kind}"
+        if known is not None and known[0] == of and known[1] is snapshot.points:
             return known
         mesh = self._document.now.mesh.with_points(snapshot.points)
-        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes))
-        return self.metric, snapshot.points, Distribution.of(values, snapshot.inverted)
+        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.elements, mesh.mid_nodes))
+        return of, snapshot.points, self._of_kind(mesh, values, snapshot.inverted)
 
     # Files
 

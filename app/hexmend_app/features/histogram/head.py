@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
@@ -16,6 +17,7 @@ from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.metric_texts import described, metrics_offered
+from hexmend_app.widgets.wording import noun_of, plural
 
 _LOG = "Logarithmic heights, which show a few bad hexes among many good ones."
 _CUMULATIVE = "Show the share of hexes with a value up to x, inverted hexes first."
@@ -44,11 +46,14 @@ class HistogramHead(QWidget):
     -------
     metric_chosen(str)
         The user selected a metric, or "" for that of the colours.
+    kind_chosen
+        The user selected the cells of another `kind`.
     scale_changed
         The user changed the heights, or the number of bins.
     """
 
     metric_chosen = Signal(str)
+    kind_chosen = Signal()
     scale_changed = Signal()
 
     def __init__(self, parent: QWidget | None = None):
@@ -62,10 +67,15 @@ class HistogramHead(QWidget):
             self.metric_box.add(tr(metric.title), described(metric), metric.name)
         self.metric_box.view().setMinimumWidth(220)
         self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
+        self.kind_box = ComboBox()
+        let_shrink(self.kind_box, 6)
+        self.kind_box.activated.connect(self.kind_chosen)
+        set_help(self.kind_box, tr("Kind of cells"), tr("Count all cells, or those of one kind."))
+        self.show_kinds([])
         self.keep = QPushButton(tr("Keep"))
         narrow(self.keep)
         self._make_menu()
-        fill(QHBoxLayout(self), (self.metric_box, 1), self.keep, self.more, margins=(0, 0, 0, 0))
+        fill(QHBoxLayout(self), (self.metric_box, 1), self.kind_box, self.keep, self.more, margins=(0, 0, 0, 0))
         self.show_metric("q", True)
 
     def _make_bins(self) -> None:
@@ -113,6 +123,19 @@ class HistogramHead(QWidget):
         self.metric_box.setItemData(0, tr("Use the metric of the colours."), Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
         set_help(self.metric_box, tr("Metric of the histogram"), described(metric))
+
+    @property
+    def kind(self) -> str:
+        """Kind of the cells that are counted; "" for all."""
+        return self.kind_box.currentData()
+
+    def show_kinds(self, kinds: Sequence[str]) -> None:
+        """Offer all cells, and those of each kind, if there are several kinds, without emitting a signal."""
+        self.kind_box.clear()
+        self.kind_box.addItem(tr("All cells"), "")
+        for kind in kinds:
+            self.kind_box.addItem(plural(noun_of(kind)).capitalize(), kind)
+        self.kind_box.setVisible(len(kinds) > 1)
 
     def set_available(self, has_distribution: bool, full: bool) -> None:
         """Enable saving if there is a distribution, and keeping unless the legend is `full`."""

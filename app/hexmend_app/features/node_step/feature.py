@@ -165,8 +165,8 @@ class FeatureNodeStep(Feature):
             self.panel.set_nodes(None)
         else:
             mesh = self._document.now.mesh
-            nodes = mesh.hexes[selection.hex]
-            self.panel.set_nodes(nodes[mesh.free[nodes]].tolist(), selection.node)
+            nodes = mesh.elements[selection.hex]
+            self.panel.set_nodes([*dict.fromkeys(nodes[mesh.free[nodes]].tolist())], selection.node)
 
     # Node
 
@@ -229,7 +229,7 @@ def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
     if selection.hex is None:
         return tr(_HINT)
     mesh, node = session.document.now.mesh, selection.node
-    has_free = bool(mesh.free[mesh.hexes[selection.hex]].any())
+    has_free = bool(mesh.free[mesh.elements[selection.hex]].any())
     remedy = tr("Select a free node below.") if has_free else tr(_NO_FREE_NODES)
     if node is None:
         return remedy
@@ -284,9 +284,9 @@ def worst_free_node(state: MeasuredMesh, hexes: np.ndarray) -> tuple[int, int] |
         hexes; None if no node is free.
     """
     mesh, jacobian = state.mesh, state.quality.scaled_jacobian
-    with_free = hexes[mesh.free[mesh.hexes[hexes]].any(axis=1)]
+    with_free = hexes[mesh.free[mesh.elements[hexes]].any(axis=1)]
     if not with_free.size:
         return None
     h = int(with_free[0])
-    nodes = mesh.hexes[h][mesh.free[mesh.hexes[h]]].tolist()
+    nodes = mesh.elements[h][mesh.free[mesh.elements[h]]].tolist()
     return h, min(nodes, key=lambda node: float(jacobian[mesh.topology.node_corners[node] // 8].sum()))

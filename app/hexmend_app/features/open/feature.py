@@ -143,7 +143,7 @@ class FeatureOpen(Feature):
         stays = bool(state.mesh.notes or findings)
         host.messages.show_card(title, text, choices, 0 if stays else _CARD_MS)
         self._carded = state.mesh, title
-        if state.mesh.n_hexes <= _CHECKED:
+        if state.mesh.n_elements <= _CHECKED:
             self.session.mesh_checker.ask(state.mesh)
 
     def _on_found(self) -> None:
@@ -198,7 +198,7 @@ def stage_text(progress: LoadProgress) -> str:
     """Describe the stage of loading.
 
     >>> from pathlib import Path
-    >>> stage_text(LoadProgress(LoadStage.MEASURING, Path("a/five.vtu"), 12345))
+    >>> stage_text(LoadProgress(LoadStage.MEASURING, Path("a/five.vtu"), "12,345 hexes"))
     'Measuring five.vtu, 12,345 hexes…'
     >>> from hexmend.io.storage.file_progress import FileAction, FileProgress
     >>> file = FileProgress(Path("a/five.vtu"), FileAction.READING, 0.4, 2.0)
@@ -210,7 +210,7 @@ def stage_text(progress: LoadProgress) -> str:
         return tr("Reading {name}: {done}…", name=name, done=progress.file.phrase)
     return {
         LoadStage.READING: tr("Reading {name}…", name=name),
-        LoadStage.MEASURING: tr("Measuring {name}, {hexes:,} hexes…", name=name, hexes=progress.hexes),
+        LoadStage.MEASURING: tr("Measuring {name}, {cells}…", name=name, cells=progress.cells),
         LoadStage.PREPARING: tr("Preparing the view of {name}…", name=name),
     }[progress.stage]
 

@@ -15,7 +15,7 @@ from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import clear, fill
 from hexmend_app.theme.style import icon, set_help, set_variant, tint
 from hexmend_app.translation import tr
-from hexmend_app.widgets.wording import counted, figure, short_folder
+from hexmend_app.widgets.wording import counted, counted_cells, figure, noun_of_cells, plural, short_folder
 
 #: Minimum scaled Jacobian above which a mesh without invalid hexes is called sound.
 _SOUND = 0.2
@@ -135,7 +135,7 @@ def card(name: str, state: MeasuredMesh, findings: Sequence[Finding]) -> tuple[s
         Of the doctor, as far as they are known.
     """
     mesh, summary = state.mesh, state.summary
-    hexes = counted(summary.hexes, "hex")
+    hexes = counted_cells(summary)
     counts = {"inverted": figure(summary.inverted), "invalid": figure(summary.invalid)}
     title = tr("{name}: {hexes}, {inverted} inverted, {invalid} invalid", name=name, hexes=hexes, **counts)
     least = figure(summary.scaled_jacobian_min)
@@ -151,7 +151,7 @@ def card(name: str, state: MeasuredMesh, findings: Sequence[Finding]) -> tuple[s
 
 
 def _verdict(state: MeasuredMesh) -> str:
-    summary = state.summary
+    summary, noun = state.summary, noun_of_cells(state.mesh)
     if summary.inverted:
         locked = summary.locked_inverted
         if locked == summary.inverted:
@@ -160,10 +160,10 @@ def _verdict(state: MeasuredMesh) -> str:
                 "unpin nodes."
             )
         locked_part = tr(" Fixed nodes lock {count} of them.", count=figure(locked)) if locked else ""
-        return tr("Solvers reject inverted hexes. Run Mend to untangle them.") + locked_part
+        return tr("Solvers reject inverted {cells}. Run Mend to untangle them.", cells=plural(noun)) + locked_part
     if summary.invalid:
-        hexes = counted(summary.invalid, "hex")
+        hexes = counted(summary.invalid, noun)
         return tr("Solvers may reject {hexes} invalid inside, between valid corners. Run Mend.", hexes=hexes)
     if summary.scaled_jacobian_min < _SOUND:
-        return tr("No hex is invalid, but some have a low quality. Run Mend to improve them.")
-    return tr("No hex is invalid.")
+        return tr("No {cell} is invalid, but some have a low quality. Run Mend to improve them.", cell=tr(noun))
+    return tr("No {cell} is invalid.", cell=tr(noun))

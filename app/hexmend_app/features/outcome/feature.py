@@ -151,7 +151,7 @@ class FeatureOutcome(Feature):
         """Return the nodes of the hexes that are still inverted, and of rings of hexes around them, (k,) int64."""
         mesh, advice = self.session.document.now.mesh, self._shown
         inverted = np.concatenate([advice.locked, advice.unlocked])
-        return np.unique(mesh.hexes[mesh.topology.hexes_around(inverted, _RINGS)])
+        return np.unique(mesh.elements[mesh.topology.hexes_around(inverted, _RINGS)])
 
 
 def notice(record: RunRecord, before: Summary, after: Summary) -> tuple[str, str]:

@@ -10,6 +10,7 @@ import pyvista as pv
 from pyvistaqt import BackgroundPlotter
 
 from hexmend.interop.pyvista_grid import to_pyvista
+from hexmend.mesh.solid_cells import solid_blocks
 from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.colour.colouring import OUTSIDE
 from hexmend_app.scene.colour.pyvista_colours import add_coloured
@@ -38,7 +39,8 @@ def show_in(plotter: pv.BasePlotter, view: Viewport, up: str) -> None:
     """
     mesh, colours, cut = view.frame.mesh, view.colours, view.frame.look.cut
     left = view.remaining_after_cut()
-    grid = to_pyvista(mesh).extract_cells(np.arange(mesh.n_hexes) if left is None else np.flatnonzero(left))
+    solids = to_pyvista(mesh.replace(cells=tuple(solid_blocks(mesh.cells))))
+    grid = solids.extract_cells(np.arange(mesh.n_elements) if left is None else np.flatnonzero(left))
     if cut.smooth:
         beyond = [side.signed_distance(np.asarray(grid.points)) for side in cut.sides]
         grid.point_data["beyond"] = np.min(beyond, axis=0) if cut.notch else np.max(beyond, axis=0)

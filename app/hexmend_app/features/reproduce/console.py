@@ -140,6 +140,6 @@ def _run(python: _Python, source: str, mesh: Mesh | None) -> tuple[bool, str, Me
     if new is not mesh and not isinstance(new, Mesh):
         output.write(f"mesh not changed: expected mesh to be a hexmend Mesh, not {type(new).__name__}\n")
     elif new is not mesh:
-        state = MeasuredMesh.of(new if mesh is not None and new.hexes is mesh.hexes else new.keeping_surface())
+        state = MeasuredMesh.of(new if mesh is not None and new.elements is mesh.elements else new.keeping_surface())
         _ = new.topology.face_neighbours, new.topology.layers  # for drawing, which the window shall not wait for
     return more, output.getvalue(), state

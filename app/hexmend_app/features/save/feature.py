@@ -102,7 +102,7 @@ class FeatureSave(Feature):
     def save_visible(self, path: Path) -> None:
         """Save the hexes that the view shows in the background; those that a smooth cut shows in part, as a whole."""
         mesh, shown = self.session.document.now.mesh, self.canvas.viewport.remaining_after_cut()
-        shown = np.ones(mesh.n_hexes, bool) if shown is None else shown
+        shown = np.ones(mesh.n_elements, bool) if shown is None else shown
         if shown.any():
             part = MeasuredMesh.of(extract_hexes(mesh, shown))
             self.session.saver.save(SaveTask(path, part, part, None, rewrite=True))

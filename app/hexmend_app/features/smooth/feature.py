@@ -170,7 +170,7 @@ class FeatureSmooth(Feature):
         self.panel.setEnabled(self._ready())
         if session.document.is_open and self._seen.changed("mesh", session.document.start):
             breakpoints, form = self._smoothing.breakpoints, self.panel.breakpoint_form
-            form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
+            form.set_mesh(session.document.now.mesh.n_elements, session.document.now.mesh.n_nodes)
             form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
         if session.document.is_open:
             self.panel.show_rules(session.document.now.mesh)
@@ -319,7 +319,7 @@ class FeatureSmooth(Feature):
         if hit.hexes:
             self.session.selection.choose(hit.hexes[0])
         elif hit.nodes:
-            around = (self.session.document.now.mesh.hexes == hit.nodes[0]).any(axis=1)
+            around = (self.session.document.now.mesh.elements == hit.nodes[0]).any(axis=1)
             self.session.selection.choose(int(around.argmax()), hit.nodes[0])
 
 

@@ -106,7 +106,7 @@ class FeatureTags(Feature):
 
     def _all_shown(self) -> np.ndarray:
         shown = None if self.canvas is None else self.canvas.viewport.remaining_after_cut()
-        return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)
+        return np.arange(self.session.document.now.mesh.n_elements) if shown is None else np.flatnonzero(shown)
 
 
 def describe(state: MeasuredMesh, members: np.ndarray) -> str:

@@ -46,10 +46,10 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
 
 
 class MeshDecoder:
-    """Converter of plain data to meshes; those with the same array of hexes share one topology."""
+    """Converter of plain data to meshes; those with the same arrays of cells share one topology."""
 
     def __init__(self) -> None:
-        self._bare: dict[int, Mesh] = {}  # by id of the array of hexes
+        self._bare: dict[tuple, Mesh] = {}  # by the arrays of hexes and other cells
         self._carriers: dict[tuple, Mesh] = {}  # with all shared fields, by these
         self._targets: dict[tuple, TargetSurface] = {}
 
@@ -70,13 +70,14 @@ class MeshDecoder:
         return with_two_dimensional_motion(mesh)
 
     def _carrier(self, data: Mapping[str, Any], points: np.ndarray) -> Mesh:
-        hexes = data["hexes"]
-        bare = self._bare.get(id(hexes))
+        fields = _decode_fields(data)
+        rows = _key([data["hexes"], *([block["kind"], block["nodes"]] for block in data["cells"])])
+        bare = self._bare.get(rows)
         if bare is None or bare.n_nodes != len(points):
-            bare = self._bare[id(hexes)] = Mesh(points, hexes)
+            bare = self._bare[rows] = Mesh(points, data["hexes"], cells=fields["cells"])
         key = (id(bare), _key({name: data[name] for name in sorted(_FIELDS - _UNSHARED)}))
         if key not in self._carriers:
-            carrier = bare.replace(**_decode_fields(data))
+            carrier = bare.replace(**fields)
             target = self._target(data["target"])
             self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
         return self._carriers[key]

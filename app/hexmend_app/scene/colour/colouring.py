@@ -19,6 +19,9 @@ from hexmend_app.theme import palette
 #: Neutral colours: of boundary faces, and of faces inside the mesh that a cut or a filter exposes.
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 
+#: Colour of cells for which a metric has no value.
+NO_VALUE = (0xA8, 0xAD, 0xB5)
+
 #: Colours of invalid hexes: magenta of the inverted ones, which no colour map contains, and a lighter magenta of those
 #: that are invalid inside. Colours of changes use magenta for newly invalid hexes, a duller magenta for hexes that are
 #: still invalid, and yellow for repaired hexes.
@@ -98,8 +101,9 @@ class Colouring:
         with np.errstate(over="ignore", invalid="ignore"):  # overflow is clipped
             row = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
         np.clip(row, 0, 255, out=row)
-        # Hexes without a value (nan) get the lowest colour unless they are invalid.
-        return self._with_special(self.table[np.nan_to_num(row, copy=False, nan=0.0).astype(np.uint8)], kinds)
+        colours = self.table[np.nan_to_num(row, copy=False, nan=0.0).astype(np.uint8)]
+        colours[np.isnan(values)] = NO_VALUE
+        return self._with_special(colours, kinds)
 
     def neutral(self, opened: np.ndarray, kinds: np.ndarray) -> np.ndarray:
         """Return neutral colours of faces, (k, 3) uint8, with special colours.

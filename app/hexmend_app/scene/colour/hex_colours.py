@@ -41,7 +41,7 @@ class HexColours:
         elif colours.metric not in DISPLACEMENT_QUANTITIES:
             self.values = metric_values(colours.metric, mesh, quality)
         elif movement is None:
-            self.values = np.zeros(mesh.n_hexes)
+            self.values = np.zeros(mesh.n_elements)
         else:
             self.values = movement.values(colours.metric)
             if colours.metric == "q-change":

@@ -38,7 +38,7 @@ def material_names(mesh: Mesh) -> tuple[str, ...]:
 
 def material_values(mesh: Mesh) -> np.ndarray:
     """Return the number of the material of each hex, (m,) float64."""
-    return np.zeros(mesh.n_hexes) if mesh.materials is None else mesh.materials.of_hex.astype(np.float64)
+    return np.zeros(mesh.n_elements) if mesh.materials is None else mesh.materials.of_hex.astype(np.float64)
 
 
 def shortened(name: str) -> str:

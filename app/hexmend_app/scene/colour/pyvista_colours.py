@@ -36,7 +36,8 @@ def add_coloured(
     """
     ends = (-0.5, len(by.names) - 0.5) if by.names else (by.low, by.high)
     special = [kinds == 1, kinds == 2, kinds == 3]
-    data.cell_data[by.title] = np.select(special, [np.nan, -np.inf, np.inf], np.clip(values, *ends))
+    known = np.where(np.isnan(values), ends[0], values).clip(*ends)
+    data.cell_data[by.title] = np.select(special, [np.nan, -np.inf, np.inf], known)
     table = pv.LookupTable(values=np.insert(by.table, 3, 255, axis=1), scalar_range=ends)
     for name, one in zip(("nan_color", "below_range_color", "above_range_color"), by.special_colours, strict=False):
         setattr(table, name, one.colour)

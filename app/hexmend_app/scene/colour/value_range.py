@@ -21,19 +21,18 @@ def within(values: np.ndarray, inverted: np.ndarray, show: Show) -> np.ndarray:
     Parameters
     ----------
     values : (m,) float64
-        Values of the metric of the range; nan is treated as inverted.
+        Values of the metric of the range; a hex without a value, nan, is in none.
     inverted : (m,) bool
     show : Show
         Filter by quality; its other filters are ignored.
     """
     least, most = METRICS[show.metric].full_range
-    special = inverted | np.isnan(values)
-    inside = ~special if show.high > -np.inf else np.zeros(len(values), dtype=bool)
+    inside = ~(inverted | np.isnan(values)) if show.high > -np.inf else np.zeros(len(values), dtype=bool)
     if show.low > least:
         inside &= values >= show.low
     if show.high < most:
         inside &= values <= show.high
-    return inside | special if show.inverted else inside
+    return inside | inverted if show.inverted else inside
 
 
 def better(metric: str) -> int:

@@ -13,15 +13,20 @@ from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
+from hexmend.mesh.solid_cells import HEXAHEDRON, rows_by_kind
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.geometry.coloured_polygons import coloured, colours_of, hexes_of
 from hexmend_app.scene.geometry.curved_elements import evaluate_hexes
 from hexmend_app.scene.geometry.polygons import Polygons, merge_polygons
+from hexmend_app.state.mesh.inspection import all_mid_nodes
 
 #: Tolerances as fractions of the mesh size: for points on a plane, below the distance of the sides of a box from nodes
 #: on them, and for hexes that only touch a plane, above it.
 _ON_PLANE, _TOUCHING = 1e-10, 1e-8
+
+#: Types of VTK's cells by their numbers of nodes.
+_VTK_TYPES = {8: pv.CellType.HEXAHEDRON, 6: pv.CellType.WEDGE, 5: pv.CellType.PYRAMID, 4: pv.CellType.TETRA}
 
 #: Eight bytes that are 1.
 _ALL_BELOW = 0x0101010101010101
@@ -33,7 +38,7 @@ _MARGIN = 0.5
 def sections(
     mesh: Mesh, keep: np.ndarray | None, cut: Cut, colours: np.ndarray, divisions: int | None = None
 ) -> pv.PolyData:
-    """Return the sections of hexes by planes, as polygons in the colours of the hexes; curved ones have edge flags.
+    """Return the sections of cells by planes, as polygons in the colours of the cells; curved ones have edge flags.
 
     Only hexes that a plane crosses are passed to VTK, which are a few percent. The section by each plane is clipped by
     the other planes. Points on a plane count as beyond it in all hexes that share them, so that a face in the plane is
@@ -50,17 +55,16 @@ def sections(
     divisions : int, optional
         Number of small hexes along each edge into which a hex with mid-nodes is divided; None cuts flat hexes.
     """
-    planes, parts, owners = cut.sides, [], []
+    planes, parts = cut.sides, []
     for i, plane in enumerate(planes):
-        section, hexes = _section(mesh, keep, plane, divisions)
+        section = _section(mesh, keep, plane, divisions)
         visible = section.before(*half_spaces((*planes[:i], *planes[i + 1 :]), beyond=cut.notch))
         if len(visible):
             parts.append(visible)
-            owners.append(hexes[visible.owner])
     if not parts:
         return pv.PolyData()
-    owner = np.concatenate(owners)
-    return coloured(merge_polygons(parts).data(), colours[owner], owner)
+    merged = merge_polygons(parts)
+    return coloured(merged.data(), colours[merged.owner], merged.owner)
 
 
 def remaining_hexes(points: np.ndarray, hexes: np.ndarray, cut: Cut) -> np.ndarray:
@@ -105,47 +109,70 @@ def half_spaces(planes: Sequence[Plane], beyond: bool = False) -> tuple[np.ndarr
     return sign * normals, sign * np.array([plane.equation[1] for plane in planes])
 
 
-def _section(mesh: Mesh, keep: np.ndarray | None, plane: Plane, divisions: int | None) -> tuple[Polygons, np.ndarray]:
-    """Return the polygons in which a plane cuts hexes, and the hex of each."""
+def _section(mesh: Mesh, keep: np.ndarray | None, plane: Plane, divisions: int | None) -> Polygons:
+    """Return the polygons in which a plane cuts cells; the owners are the cells."""
     distances = plane.signed_distance(mesh.points)
     tolerance = _ON_PLANE * float(np.abs(distances).max())
     crossing = _crossing(mesh, keep, distances, tolerance, divisions is not None)
-    at, cells = _lattice(divisions or 1)
-    if divisions is None:
-        points = mesh.points[mesh.hexes[crossing]]
-    else:
-        points = evaluate_hexes(hex_nodes(mesh.points, mesh.hexes[crossing], mesh.mid_nodes[crossing]), at)
+    parts = [Polygons.of(pv.PolyData())]
+    for kind, rows in rows_by_kind(mesh.elements[crossing]):
+        cells = crossing[rows]
+        nodes = mesh.elements[cells, : kind.nodes]
+        if divisions is None or kind is not HEXAHEDRON:
+            at, pieces = np.zeros((kind.nodes, 3)), np.arange(kind.nodes)[None]
+            points = mesh.points[nodes]
+        else:
+            at, pieces = _lattice(divisions)
+            points = evaluate_hexes(hex_nodes(mesh.points, nodes, mesh.mid_nodes[cells]), at)
+        found = _cut_pieces(points, pieces, at, plane, tolerance)
+        if not found.GetNumberOfCells():
+            continue
+        section = Polygons.of(found).facing(np.array(plane.normal))
+        section = replace(section, owner=cells[np.asarray(found.cell_data["cell"])])
+        if divisions is not None:
+            flags = _on_faces(section, np.asarray(found.point_data["at"]))
+            normals = np.broadcast_to(np.array(plane.normal, dtype=np.float32), (len(flags), 3))
+            section = replace(section, flags=flags, normals=normals)
+        parts.append(section)
+    return merge_polygons(parts[1:] or parts)
+
+
+def _cut_pieces(points: np.ndarray, pieces: np.ndarray, at: np.ndarray, plane: Plane, tolerance: float) -> pv.PolyData:
+    """Cut the pieces (d, nodes) of each of some cells by a plane, which the polygons name as "cell".
+
+    Parameters
+    ----------
+    points : (k, g, 3) float64
+        Points of each cell.
+    at : (g, 3) float64
+        Position of each point in the unit cube of its cell; interpolated in the polygons.
+    """
     distances = plane.signed_distance(points.reshape(-1, 3)).reshape(points.shape[:2])
     on = np.abs(distances) < tolerance
     points[on] += (tolerance - distances[on])[:, None] * np.array(plane.normal)
-    below = (distances < -tolerance)[:, cells].sum(axis=2)
-    which, cell = np.nonzero((below > 0) & (below < 8))
+    below = (distances < -tolerance)[:, pieces].sum(axis=2)
+    which, piece = np.nonzero((below > 0) & (below < pieces.shape[1]))
     if not len(which):
-        return Polygons.of(pv.PolyData()), crossing[:0]
-    corners = which[:, None] * len(at) + cells[cell]
-    grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: corners}, points.reshape(-1, 3))
-    grid.cell_data["hex"] = crossing[which]
-    grid.point_data["at"] = np.tile(at, (len(crossing), 1))
-    found = _cut_by_vtk(grid, plane)
-    section, hexes = Polygons.of(found).facing(np.array(plane.normal)), np.asarray(found.cell_data["hex"])
-    if divisions is None:
-        return section, hexes
-    flags = _on_faces(section, np.asarray(found.point_data["at"]))
-    normals = np.broadcast_to(np.array(plane.normal, dtype=np.float32), (len(flags), 3))
-    return replace(section, flags=flags, normals=normals), hexes
+        return pv.PolyData()
+    corners = which[:, None] * len(at) + pieces[piece]
+    grid = pv.UnstructuredGrid({_VTK_TYPES[pieces.shape[1]]: corners}, points.reshape(-1, 3))
+    grid.cell_data["cell"] = which
+    grid.point_data["at"] = np.tile(at, (len(points), 1))
+    return _cut_by_vtk(grid, plane)
 
 
 def _crossing(mesh: Mesh, keep: np.ndarray | None, distances: np.ndarray, tolerance: float, curved: bool) -> np.ndarray:
     """Return the shown hexes that a plane crosses or, if they are curved, may cross, (k,) int64."""
     if curved:
-        low = high = distances[mesh.hexes[:, 0]]
-        for nodes in (*mesh.hexes.T[1:], *mesh.mid_nodes.T):
+        low = high = distances[mesh.elements[:, 0]]
+        for nodes in (*mesh.elements.T[1:], *all_mid_nodes(mesh).T):
             here = np.where(nodes >= 0, distances[nodes], low)
             low, high = np.minimum(low, here), np.maximum(high, here)
         margin = _MARGIN * (high - low)
         crossed = (low - margin < 0) & (high + margin > 0)
     else:
-        below = (distances < -tolerance)[mesh.hexes].view(np.uint64).ravel()  # the eight corners of a hex as a number
+        # The eight corners of a cell as a number.
+        below = (distances < -tolerance)[mesh.elements].view(np.uint64).ravel()
         crossed = (below != 0) & (below != _ALL_BELOW)
     return np.flatnonzero(crossed if keep is None else crossed & keep)
 
@@ -178,8 +205,6 @@ def _on_faces(section: Polygons, at: np.ndarray) -> np.ndarray:
 
 def _lattice(divisions: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the points of a lattice of the unit cube, (g, 3), and the small hexes between them, (divisions^3, 8)."""
-    if divisions == 1:
-        return UNIT_CUBE.astype(float), np.arange(8)[None]
     side = divisions + 1
     at = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     strides = np.array([side * side, side, 1])

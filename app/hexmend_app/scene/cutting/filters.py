@@ -39,7 +39,7 @@ class Filters:
         A cut by whole hexes is evaluated when its planes change, not when nodes move, so that hexes do not flicker; a
         result stored in the look takes precedence.
         """
-        points, figures, topology, m = frame.mesh.points, frame.quality, self._mesh.topology, self._mesh.n_hexes
+        points, figures, topology, m = frame.mesh.points, frame.quality, self._mesh.topology, self._mesh.n_elements
         cut, show, quality = frame.look.cut, frame.look.show, frame.look.show.by_quality
         filters = (
             self._mask(
@@ -92,7 +92,7 @@ class Filters:
         masks += [self._known[name][1] for name in ("cut", "hidden") if name in self._known]
         cut = frame.look.cut
         if cut.smooth:
-            masks.append(remaining_hexes(frame.mesh.points, frame.mesh.hexes, cut))
+            masks.append(remaining_hexes(frame.mesh.points, frame.mesh.elements, cut))
         return reduce(np.logical_and, masks)
 
     def remaining_after_cut(self, frame: Frame) -> np.ndarray | None:
@@ -100,7 +100,7 @@ class Filters:
         keep, cut, mesh = self.kept(frame), frame.look.cut, frame.mesh
         if not cut.smooth:
             return keep
-        left = remaining_hexes(mesh.points, mesh.hexes, cut)
+        left = remaining_hexes(mesh.points, mesh.elements, cut)
         return left if keep is None else left & keep
 
     def _mask(self, name: str, key: Hashable | None, compute: Callable[[], np.ndarray]) -> np.ndarray | None:

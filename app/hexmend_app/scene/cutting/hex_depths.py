@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.boundary.closest_point import ClosestPointTrees, triangulate
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import centres
 from hexmend_app.picture.cut_shapes import Depth, DepthUnit
 
 
@@ -28,7 +29,7 @@ class HexDepths:
         """Return the centres of hexes, (m, 3) float64, for node positions (n, 3) float64."""
         if points is not self._points:
             self._points, self._depths = points, None
-            self._centres = points[self._mesh.hexes].mean(axis=1)
+            self._centres = centres(points, self._mesh.elements)
         return self._centres
 
     def in_range(self, points: np.ndarray, depth: Depth) -> np.ndarray:

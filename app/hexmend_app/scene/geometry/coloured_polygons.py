@@ -10,8 +10,21 @@ COLOURS, HEX = "colours", "hex"
 
 
 def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
-    """Build quads from points (u, 3), faces (k, 4), and colours (k, 3) uint8 and hexes (k,) int32 of the faces."""
-    return coloured(pv.PolyData.from_regular_faces(points, faces), colours, hexes)
+    """Build quads from points (u, 3), faces (k, 4), and colours (k, 3) uint8 and hexes (k,) int32 of the faces.
+
+    Faces that repeat their last point are triangles.
+    """
+    return coloured(polygons(points, faces), colours, hexes)
+
+
+def polygons(points: np.ndarray, faces: np.ndarray) -> pv.PolyData:
+    """Build quads from points (u, 3) and faces (k, 4), of which those that repeat their last point are triangles."""
+    kept = np.ones(faces.shape, dtype=bool)
+    kept[:, 3] = faces[:, 2] != faces[:, 3]
+    if kept.all():
+        return pv.PolyData.from_regular_faces(points, faces)
+    start = np.append(0, np.cumsum(kept.sum(axis=1)))
+    return pv.PolyData(points, faces=pv.CellArray.from_arrays(start, faces[kept]))
 
 
 def coloured(data: pv.PolyData, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:

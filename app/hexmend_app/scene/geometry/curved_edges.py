@@ -8,7 +8,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order.curved_geometry import QUAD_POSITIONS, quad_nodes
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
 from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, edge_middles, evaluate_edges, quad_normals
-from hexmend_app.state.mesh.structure import SHARP_DEGREES
+from hexmend_app.state.mesh.inspection import all_mid_nodes
+from hexmend_app.state.mesh.structure import SHARP_DEGREES, edges_at_an_angle
 
 #: Number of lines into which an edge is divided.
 DIVISIONS = 8
@@ -73,13 +74,5 @@ def sharp_curved_edges(mesh: Mesh, degrees: float = SHARP_DEGREES) -> np.ndarray
         Nodes of each edge, lower node first.
     """
     faces, owners = mesh.topology.boundary_faces, np.nonzero(mesh.topology.face_neighbours < 0)[0]
-    nodes = quad_nodes(mesh.points, faces, face_mid_nodes(mesh.hexes, mesh.mid_nodes, owners, faces))
-    normals = quad_normals(nodes, QUAD_POSITIONS[4:8]).reshape(-1, 3)
-    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    key = edges[:, 0].astype(np.int64) * mesh.n_nodes + edges[:, 1]
-    order = np.argsort(key, kind="stable")
-    first = np.flatnonzero(np.diff(key[order], prepend=-1))
-    count = np.diff(first, append=len(key))
-    pair = normals[order[first]], normals[order[np.minimum(first + 1, len(key) - 1)]]
-    turned = np.einsum("ij,ij->i", *pair) < np.cos(np.radians(degrees))
-    return edges[order[first[(count != 2) | turned]]]
+    nodes = quad_nodes(mesh.points, faces, face_mid_nodes(mesh.elements, all_mid_nodes(mesh), owners, faces))
+    return edges_at_an_angle(faces, quad_normals(nodes, QUAD_POSITIONS[4:8]).reshape(-1, 3), degrees)

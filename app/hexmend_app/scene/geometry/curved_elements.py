@@ -16,7 +16,7 @@ def edge_mid_nodes(hexes: np.ndarray, mid_nodes: np.ndarray, edges: np.ndarray) 
     hexes : (m, 8) int32
     mid_nodes : (m, 19) int32
     edges : (e, 2) int
-        Nodes at the ends of edges of hexes.
+        Nodes at the ends of edges of any cells.
 
     Returns
     -------
@@ -25,7 +25,7 @@ def edge_mid_nodes(hexes: np.ndarray, mid_nodes: np.ndarray, edges: np.ndarray) 
     """
     if not len(edges) or not len(hexes):
         return np.full(len(edges), -1)
-    nodes = int(hexes.max()) + 1
+    nodes = int(max(hexes.max(), np.max(edges))) + 1
     end = np.zeros(nodes, dtype=bool)
     end[edges] = True
     near = np.flatnonzero(end[hexes].sum(axis=1) > 1)

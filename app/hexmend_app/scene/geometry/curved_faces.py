@@ -11,10 +11,12 @@ import pyvista as pv
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order.curved_geometry import evaluate_quads, grid, quad_nodes
 from hexmend.mesh.second_order.mid_node_lookup import face_mid_nodes
+from hexmend.mesh.solid_cells import centres
 from hexmend_app.scene.geometry.coloured_polygons import coloured, set_colours, set_points
 from hexmend_app.scene.geometry.curved_elements import quad_normals
 from hexmend_app.scene.geometry.edge_flags import NORMALS, set_edge_flags, set_normals
 from hexmend_app.scene.geometry.skin import Faces
+from hexmend_app.state.mesh.inspection import all_mid_nodes
 
 #: Maximum number of quads into which the faces are divided together, as far as each face has at least four; they take
 #: 30 ms a frame in software rendering.
@@ -53,8 +55,8 @@ class CurvedFaces:
         self.divisions = divisions
         self._hexes, self._shrink = faces.hexes, faces.shrink
         self._corners = faces.nodes[faces.quads]
-        self._mids = face_mid_nodes(mesh.hexes, mesh.mid_nodes, faces.hexes, self._corners)
-        self._of_hexes = mesh.hexes[faces.hexes] if faces.shrink else None
+        self._mids = face_mid_nodes(mesh.elements, all_mid_nodes(mesh), faces.hexes, self._corners)
+        self._of_hexes = mesh.elements[faces.hexes] if faces.shrink else None
 
     @property
     def count(self) -> int:
@@ -65,7 +67,7 @@ class CurvedFaces:
         """Return the drawn positions of the nine nodes of each face, (k, 9, 3), from the points of the mesh, (n, 3)."""
         nodes = quad_nodes(points, self._corners, self._mids)
         if self._shrink:
-            nodes += self._shrink * (points[self._of_hexes].mean(axis=1)[:, None] - nodes)
+            nodes += self._shrink * (centres(points, self._of_hexes)[:, None] - nodes)
         return nodes
 
     def quads(self, points: np.ndarray, colours: np.ndarray) -> pv.PolyData:

@@ -52,7 +52,7 @@ class Frame:
         """Return True if both frames share their hexes with their mid-nodes; positions of nodes may differ."""
         if other is None:
             return False
-        return self.mesh.hexes is other.mesh.hexes and self.mesh.mid_nodes is other.mesh.mid_nodes
+        return self.mesh.elements is other.mesh.elements and self.mesh.mid_nodes is other.mesh.mid_nodes
 
     def matching(self, first: Frame) -> Frame:
         """Return a frame of this mesh with the look and the reference state of movement of the first view's frame."""
@@ -73,4 +73,4 @@ class Frame:
 
 def same_hexes(mesh: Mesh, other: Mesh) -> bool:
     """Return True if two meshes have equal hexes, so that hex numbers are valid in both."""
-    return mesh.hexes is other.hexes or np.array_equal(mesh.hexes, other.hexes)
+    return mesh.elements is other.elements or np.array_equal(mesh.elements, other.elements)

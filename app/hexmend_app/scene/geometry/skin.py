@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import skin
-from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import cell_faces, centres, has_node
 from hexmend.mesh.validation import as_bools, as_points, check_node_numbers
 
 #: Maximum number of shrunk hexes that are all drawn; of more hexes, only those with a visible face are. They take 50 ms
@@ -25,7 +25,7 @@ class Faces:
     nodes : (u,) int32
         Nodes of the mesh that the quads use.
     quads : (k, 4) int32
-        Indices into `nodes`, counter-clockwise as seen from outside.
+        Indices into `nodes`, counter-clockwise as seen from outside; a triangle repeats its last.
     hexes : (k,) int32
         Hex of each quad.
     shrink : float
@@ -50,8 +50,9 @@ class Faces:
             return points[self.nodes]
         points = as_points(points)
         check_node_numbers(self.nodes[:, None], len(points), ("place", "column"))
-        corners = points[self.nodes].reshape(-1, 8, 3)
-        return (self.shrink * corners.mean(axis=1, keepdims=True) + (1 - self.shrink) * corners).reshape(-1, 3)
+        cells = self.nodes.reshape(-1, 8)
+        middles = centres(points, cells)[:, None]
+        return (self.shrink * middles + (1 - self.shrink) * points[cells]).reshape(-1, 3)
 
 
 class Skin:
@@ -63,9 +64,13 @@ class Skin:
     """
 
     def __init__(self, mesh: Mesh):
-        self._hexes = mesh.hexes
+        self._hexes = mesh.elements
         self._neighbours = mesh.topology.face_neighbours
-        self._all = np.ones(mesh.n_hexes, dtype=bool)
+        if mesh.n_elements > mesh.n_hexes:  # quads between a cell and two triangles are always drawn
+            closed = self._neighbours == np.arange(mesh.n_elements)[:, None]
+            closed &= cell_faces(mesh.elements)[:, :, 0] >= 0
+            self._neighbours = np.where(closed, np.int32(-1), self._neighbours)
+        self._all = np.ones(mesh.n_elements, dtype=bool)
         self._n_nodes = mesh.n_nodes
 
     def visible(self, keep: np.ndarray | None = None) -> Faces:
@@ -85,8 +90,11 @@ class Skin:
         if np.count_nonzero(keep) > WHOLE:
             chosen = keep & ((self._neighbours < 0) | ~keep[self._neighbours]).any(axis=1)
         numbers = np.flatnonzero(chosen).astype(np.int32)
-        quads = (FACES + 8 * np.arange(len(numbers), dtype=np.int32)[:, None, None]).reshape(-1, 4)
-        return Faces(self._hexes[numbers].ravel(), quads, np.repeat(numbers, 6), shrink)
+        cells = self._hexes[numbers]
+        columns = np.minimum(np.arange(8), has_node(cells).sum(axis=1, keepdims=True) - 1)
+        quads = cell_faces((columns + 8 * np.arange(len(cells))[:, None]).astype(np.int32))
+        exists = quads[:, :, 0] >= 0
+        return Faces(cells.ravel(), quads[exists], numbers[np.nonzero(exists)[0]], shrink)
 
     def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
         """Return True for faces inside the mesh, whose adjacent hex is hidden, (k,) bool.
@@ -101,8 +109,8 @@ class Skin:
         hexes = faces.hexes[np.flatnonzero(np.diff(faces.hexes, prepend=-1))]
         behind = self._neighbours[hexes]
         inside = behind >= 0
-        if len(faces.quads) == 6 * len(hexes):
-            return inside.ravel()
+        if faces.shrink:
+            return inside[cell_faces(self._hexes[hexes])[:, :, 0] >= 0]
         keep = self._kept(keep)
         return inside[~(inside & keep[behind])]
 
@@ -125,5 +133,5 @@ def edges_of_kept(mesh: Mesh, edges: np.ndarray, keep: np.ndarray | None) -> np.
     mask = np.ones(len(edges), dtype=bool)
     if keep is not None:
         rows = mesh.topology.node_corners
-        skin.edges_kept(mesh.hexes, rows.start, rows.items, edges, keep, mask)
+        skin.edges_kept(mesh.elements, rows.start, rows.items, edges, keep, mask)
     return mask

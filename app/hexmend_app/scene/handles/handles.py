@@ -21,7 +21,7 @@ def isolates_detail(frame: Frame) -> bool:
     if isolate is None:
         return False
     hexes = np.array(isolate.hexes, dtype=np.int64)
-    places = mesh.points[mesh.hexes[hexes[hexes < mesh.n_hexes]]].reshape(-1, 3)
+    places = mesh.points[mesh.elements[hexes[hexes < mesh.n_elements]]].reshape(-1, 3)
     whole = np.ptp(mesh.points[mesh.topology.used], axis=0)
     return len(places) > 0 and bool(np.linalg.norm(np.ptp(places, axis=0)) < _DETAIL * np.linalg.norm(whole))
 

@@ -82,7 +82,7 @@ class ArrowLayer:
         through = traces.arrows is Arrows.ALL
         if through:
             nodes = np.zeros(mesh.n_nodes, bool)
-            nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
+            nodes[mesh.elements if keep is None else mesh.elements[keep]] = True
         else:
             nodes = mesh_layer.visible_nodes(mesh)
         self._show(frame.movement, nodes & remaining_points(mesh.points, frame.look.cut), traces.factor, through)

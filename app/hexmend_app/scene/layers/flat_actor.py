@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkBillboardTextActor3D,
-    vtkMapper,
-    vtkPolyDataMapper,
-    vtkRenderer,
-)
+from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkMapper, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.theme.palette import rgb
 

@@ -9,12 +9,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.cutting.cut import remaining_skin, sections
-from hexmend_app.scene.geometry.coloured_polygons import (
-    hexes_of,
-    quads,
-    set_colours,
-    set_points,
-)
+from hexmend_app.scene.geometry.coloured_polygons import hexes_of, quads, set_colours, set_points
 from hexmend_app.scene.geometry.curved_faces import CurvedFaces, divisions_of
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.geometry.polygons import Polygons, merge_polygons
@@ -205,7 +200,7 @@ class MeshLayer:
         nodes = np.zeros(mesh.n_nodes, bool)
         nodes[self.faces.nodes] = True
         if self.section.shown:
-            nodes[mesh.hexes[hexes_of(self.section.poly)]] = True
+            nodes[mesh.elements[hexes_of(self.section.poly)]] = True
         return nodes
 
     @property

@@ -57,11 +57,13 @@ def decimated(skin: pv.PolyData) -> pv.PolyData:
     Parameters
     ----------
     skin : pyvista.PolyData
-        Quads, with colours and hexes (see `coloured`).
+        Quads and triangles, with colours and hexes (see `coloured`).
     """
-    quads = skin.regular_faces
-    data = pv.PolyData.from_regular_faces(skin.points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
-    data.cell_data["face"] = np.tile(np.arange(len(quads)), 2)
+    faces = Polygons.of(skin)
+    first, quads = faces.start[:-1], np.flatnonzero(np.diff(faces.start) == 4)
+    corners = np.concatenate([first[:, None] + [0, 1, 2], first[quads, None] + [0, 2, 3]])
+    data = pv.PolyData.from_regular_faces(skin.points, faces.places[corners])
+    data.cell_data["face"] = np.concatenate([np.arange(len(first)), quads])
     bins = vtkBinnedDecimation()
     bins.SetInputData(data)
     bins.SetNumberOfDivisions(_DIVISIONS, _DIVISIONS, _DIVISIONS)
@@ -70,6 +72,6 @@ def decimated(skin: pv.PolyData) -> pv.PolyData:
     bins.ProducePointDataOff()
     bins.Update()
     coarse = pv.wrap(bins.GetOutput())
-    faces = np.asarray(coarse.cell_data["face"]).astype(np.int64)
+    owners = np.asarray(coarse.cell_data["face"]).astype(np.int64)
     coarse.clear_data()
-    return coloured(coarse, colours_of(skin)[faces], hexes_of(skin)[faces])
+    return coloured(coarse, colours_of(skin)[owners], hexes_of(skin)[owners])

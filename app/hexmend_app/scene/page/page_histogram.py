@@ -67,7 +67,7 @@ def draw_histogram(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
 def _counts(colouring: Colouring, values: np.ndarray, kinds: np.ndarray) -> np.ndarray:
     """Return the numbers of hexes of each special colour, with gaps, then of the bins of the colour range."""
     low, high = (-0.5, len(colouring.names) - 0.5) if colouring.names else (colouring.low, colouring.high)
-    regular = np.nan_to_num(values[kinds == 0], nan=low).clip(low, high)
+    regular = values[(kinds == 0) & ~np.isnan(values)].clip(low, high)
     special = np.zeros(2 * len(colouring.special_colours), dtype=np.int64)
     special[::2] = np.bincount(kinds, minlength=len(colouring.special_colours) + 1)[1:]
     return np.concatenate([special, np.histogram(regular, _BINS, (low, high))[0]])

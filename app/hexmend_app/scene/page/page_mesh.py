@@ -25,7 +25,7 @@ class PageMesh(Frame):
     @classmethod
     def of(cls, mesh: Mesh, name: str = "") -> PageMesh:
         """Return a mesh with its measured quality, under its own name by default."""
-        return cls(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes), name=name or mesh.name)
+        return cls(mesh, measure(mesh.points, mesh.elements, mesh.mid_nodes), name=name or mesh.name)
 
     @property
     def text(self) -> str:

@@ -64,7 +64,7 @@ class Picker:
         if cell < 0:
             return None
         h, place = hex_of(pv.wrap(self._picker.GetDataSet()), cell), np.array(self._picker.GetPickPosition())
-        nodes = mesh.hexes[h]
+        nodes = mesh.elements[h]
         squared_distances = np.square(mesh.points[nodes] - place).sum(axis=1)
         node = int(nodes[squared_distances.argmin()])
         return Hit(h, node, place, mesh.points[node])

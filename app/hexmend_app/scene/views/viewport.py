@@ -147,7 +147,7 @@ class Viewport:
         if self.frame is None:
             return 0
         keep = self.kept()
-        return self.frame.mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
+        return self.frame.mesh.n_elements if keep is None else int(np.count_nonzero(keep))
 
     @property
     def colouring(self) -> Colouring | None:

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QWidget
 
+from hexmend_app.state.mesh.inspection import kind_name
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
+from hexmend_app.widgets.wording import counted_cells, noun_of
 
 if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
@@ -24,20 +26,11 @@ class HexCounts(ElidingLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        text = _counts_text(summary.hexes, summary.invalid)
+        text = counted_cells(summary)
+        if summary.invalid:
+            text = tr("{hexes}, {invalid:,} invalid", hexes=text, invalid=summary.invalid)
         self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
         self.setToolTip(self.text())
-
-
-def _counts_text(hexes: int, invalid: int) -> str:
-    """Return the number of hexes, and that of invalid ones if there are any.
-
-    >>> _counts_text(4788, 0), _counts_text(4788, 5)
-    ('4,788 hexes', '4,788 hexes, 5 invalid')
-    """
-    if invalid:
-        return tr("{hexes:,} hexes, {invalid:,} invalid", hexes=hexes, invalid=invalid)
-    return tr("{hexes:,} hexes", hexes=hexes)
 
 
 def _isolated_text(session: Session) -> str:
@@ -51,8 +44,6 @@ def _selected_text(session: Session) -> str:
     selected, now = session.selection.hex, session.document.now
     if selected is None:
         return ""
-    if now.quality.inverted[selected]:
-        return tr("hex {hex}: inverted", hex=selected)
-    if now.quality.invalid[selected]:
-        return tr("hex {hex}: invalid", hex=selected)
-    return tr("hex {hex}: q {q:.3f}", hex=selected, q=now.quality.q[selected])
+    quality, kind = now.quality, tr(noun_of(kind_name(now.mesh, selected)))
+    state = tr("inverted") if quality.inverted[selected] else tr("invalid") if quality.invalid[selected] else ""
+    return f"{kind} {selected}: {state or f'q {quality.q[selected]:.3f}'}"

@@ -39,7 +39,7 @@ class MeasuredMesh:
     @classmethod
     def of(cls, mesh: Mesh, quality: ElementQuality | None = None) -> MeasuredMesh:
         """Measure a mesh, whose quality may be known already."""
-        quality = measure(mesh.points, mesh.hexes, mesh.mid_nodes) if quality is None else quality
+        quality = measure(mesh.points, mesh.elements, mesh.mid_nodes) if quality is None else quality
         return cls(mesh, quality, summarise(mesh, quality))
 
 
@@ -120,8 +120,8 @@ class DocumentData:
     def __post_init__(self) -> None:
         if not 0 <= self.at < len(self.changes):
             raise ValueError(f"there is no change {self.at} among {len(self.changes)}")
-        hexes = self.changes[self.at].state.mesh.hexes
-        if self.now.mesh.hexes is not hexes:
+        hexes = self.changes[self.at].state.mesh.elements
+        if self.now.mesh.elements is not hexes:
             raise ValueError("the mesh shown is not that of its changes")
 
 
@@ -169,15 +169,15 @@ class Document(QObject):
     @property
     def start(self) -> MeasuredMesh:
         """The state as opened, or after the last change of the hexes or nodes."""
-        hexes = self._changes[self._at].state.mesh.hexes
+        hexes = self._changes[self._at].state.mesh.elements
         at = self._at
-        while at > 0 and self._changes[at - 1].state.mesh.hexes is hexes:
+        while at > 0 and self._changes[at - 1].state.mesh.elements is hexes:
             at -= 1
         return self._changes[at].state
 
     def has_hex(self, hex: int | None) -> bool:
         """Return True if the open mesh has a hex with this number; False for None."""
-        return hex is not None and self.is_open and 0 <= hex < self.now.mesh.n_hexes
+        return hex is not None and self.is_open and 0 <= hex < self.now.mesh.n_elements
 
     @property
     def name(self) -> str:
@@ -301,7 +301,7 @@ class Document(QObject):
             True if its mesh is still open.
         """
         state = self.now if state is None else state
-        is_open = any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes)
+        is_open = any(change.state.mesh.elements is state.mesh.elements for change in self._changes)
         if is_open:
             self.path, self._saved = path, state
             self._files.pop(path, None)
@@ -332,6 +332,6 @@ class Document(QObject):
         self.changes_changed.emit()
 
     def _show(self) -> None:
-        before, self.now = self.now.mesh.hexes, self._changes[self._at].state
-        (self.points_moved if self.now.mesh.hexes is before else self.mesh_replaced).emit()
+        before, self.now = self.now.mesh.elements, self._changes[self._at].state
+        (self.points_moved if self.now.mesh.elements is before else self.mesh_replaced).emit()
         self.changes_changed.emit()

@@ -51,7 +51,7 @@ def hexes_of_group(
     if group == "invalid inside":
         return np.flatnonzero(quality.invalid & ~quality.inverted)
     if group == "locked":
-        return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))
+        return np.flatnonzero(locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted))
     if displacement is None:
         return np.empty(0, np.int64)
     return np.flatnonzero(displacement.validity_changes == _OF_DISPLACEMENT[group])

@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import PYRAMID, SOLID_KINDS, kinds_of, nouns
 from hexmend.mesh.validation import as_index
 from hexmend.quality.file_ids import hex_ids, node_ids
 from hexmend.quality.measure import corner_qualities, locked_hexes, measure
@@ -23,18 +24,20 @@ class HexDetails:
     Parameters
     ----------
     number : int
-    nodes : (8,) int32
+    kind : str
+        Name of its kind in `hexmend.mesh.solid_cells`.
+    nodes : (k,) int32
         Numbers of its nodes.
-    points : (8, 3) float64
+    points : (k, 3) float64
         Positions of its nodes.
-    fixed : (8,) bool
+    fixed : (k,) bool
         True for fixed nodes.
-    corners : (8,) float64
-        q(T) of the corner tetrahedra, (2.8); 0 where sigma <= 0.
+    corners : (k,) float64
+        q(T) at its nodes, see `node_qualities`.
     values : dict
         Value of every metric, by name.
-    neighbours : (6,) int32
-        Hexes across the faces x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
+    neighbours : (f,) int32
+        Cells across its faces, of a hex x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
     inverted, invalid : bool
         As in `ElementQuality`; an inverted hex is invalid too.
     locked : bool
@@ -46,6 +49,7 @@ class HexDetails:
     """
 
     number: int
+    kind: str
     nodes: np.ndarray
     points: np.ndarray
     fixed: np.ndarray
@@ -83,21 +87,23 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     >>> one.nodes.size, round(one.values["q"], 6), one.inverted
     (8, 1.0, False)
     """
-    number = as_index(number, mesh.n_hexes, "hex")
-    nodes, neighbours = mesh.hexes[number], mesh.topology.face_neighbours[number]
-    hexes = np.ascontiguousarray(nodes[None])
-    mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[number][None]
+    number = as_index(number, mesh.n_elements, "hex")
+    neighbours, hexes = mesh.topology.face_neighbours[number], np.ascontiguousarray(mesh.elements[number][None])
+    kind = SOLID_KINDS[kinds_of(hexes)[0]]
+    nodes = hexes[0, : kind.nodes]
+    mid_nodes = None if mesh.mid_nodes is None else all_mid_nodes(mesh)[number][None]
     quality = measure(mesh.points, hexes, mid_nodes)
     patch = _patch(mesh, np.concatenate([[number], np.unique(neighbours[(neighbours >= 0) & (neighbours != number)])]))
     of_patch = measure(patch.points, patch.hexes)
     return HexDetails(
         number=number,
+        kind=kind.name,
         nodes=nodes,
         points=mesh.points[nodes],
         fixed=mesh.fixed[nodes],
-        corners=corner_qualities(mesh.points, hexes)[0],
+        corners=node_qualities(mesh.points, hexes[0]),
         values={metric.name: float(metric.values(patch, of_patch)[0]) for metric in METRICS.values()},
-        neighbours=neighbours,
+        neighbours=neighbours[kind.faces[:, 0] >= 0],
         inverted=bool(quality.inverted[0]),
         invalid=bool(quality.invalid[0]),
         locked=bool(locked_hexes(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
@@ -106,14 +112,37 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     )
 
 
+def kind_name(mesh: Mesh, number: int) -> str:
+    """Return the name of the kind of a cell of a mesh."""
+    return SOLID_KINDS[kinds_of(mesh.elements[number][None])[0]].name
+
+
+def node_qualities(points: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    """Return q(T) of the corner tetrahedra at the nodes of a cell (8,), (k,) float64; 0 where sigma <= 0, (2.8).
+
+    A tetrahedron has one at all its nodes, a pyramid none at its apex, which is NaN.
+    """
+    kind = SOLID_KINDS[kinds_of(cell[None])[0]]
+    values = corner_qualities(points, cell[None])[0, : kind.nodes]
+    if kind is PYRAMID:
+        values[-1] = np.nan
+    return values
+
+
+def all_mid_nodes(mesh: Mesh) -> np.ndarray:
+    """Return `Mesh.mid_nodes`, (m, 19) int32, with a row of -1 for each cell that is no hex."""
+    others = np.full((mesh.n_elements - mesh.n_hexes, 19), -1, np.int32)
+    return np.concatenate([mesh.mid_nodes, others]) if len(others) else mesh.mid_nodes
+
+
 def _file_id(ids: np.ndarray | None, number: int) -> int | None:
     return None if ids is None else int(ids[number])
 
 
 def _patch(mesh: Mesh, numbers: np.ndarray) -> Mesh:
     """Return a mesh of some hexes (k,) of a mesh alone, in this order, with what metrics need."""
-    hexes, nodes = mesh.hexes[numbers], mesh.hexes[numbers].ravel()
-    mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[numbers]
+    hexes, nodes = mesh.elements[numbers], mesh.elements[numbers].ravel()
+    mid_nodes = None if mesh.mid_nodes is None else all_mid_nodes(mesh)[numbers]
     if mid_nodes is not None:
         nodes = np.concatenate([nodes, mid_nodes[mid_nodes >= 0]])
     nodes = np.unique(nodes)
@@ -144,6 +173,8 @@ class NodeDetails:
         True for a pinned node, also on the boundary.
     file_id : int, optional
         Number of the node in the file; None if that counts from 0 too, or has none.
+    noun : str
+        Word for one of the cells of the ring.
     """
 
     number: int
@@ -154,6 +185,7 @@ class NodeDetails:
     downhill: np.ndarray
     pinned: bool = False
     file_id: int | None = None
+    noun: str = "hex"
 
 
 def describe_node(mesh: Mesh, number: int) -> NodeDetails:
@@ -186,10 +218,10 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     file_id = _file_id(node_ids(mesh), number)
     if not ring.size:
         return NodeDetails(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3), file_id=file_id)
-    energy = float(np.square(measure(mesh.points, mesh.hexes[ring]).eta).sum())
+    noun, energy = nouns(mesh.elements[ring])[0], float(np.square(measure(mesh.points, mesh.elements[ring]).eta).sum())
     downhill = np.zeros(3)
     if np.isfinite(energy):
-        at = local.patch_energy(mesh.points, mesh.hexes, star, 0.0, 0.0, (2.0, 1.0))
+        at = local.patch_energy(mesh.points, mesh.elements, star, 0.0, 0.0, (2.0, 1.0))
         xx, xy, xz, yy, yz, zz = at.hessian
         hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         downhill = descent(np.array(at.gradient), hessian, mesh.points[number] * at.factor)
@@ -198,4 +230,4 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     if mesh.fixed[number] and kind == "free":
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
         kind = "interface" if between and not mesh.immovable[number] else "pinned" if pinned else "fixed"
-    return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned, file_id)
+    return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned, file_id, noun)

@@ -8,6 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.solid_cells import SOLID_KINDS, kinds_of
 from hexmend.quality import METRICS, ElementQuality, locked_hexes, rank_worst
 from hexmend.quality.file_ids import hex_ids
 from hexmend_app.state.mesh.document import Document
@@ -32,6 +33,8 @@ class WorstHexes:
         that are invalid inside, else "".
     ids : (k,) int, optional
         Numbers of the hexes in the file; None if that counts from 0 too, or has none.
+    kinds : list of str, optional
+        Kinds of the cells by name; None if all cells of the mesh are hexes.
     """
 
     hexes: np.ndarray
@@ -39,18 +42,23 @@ class WorstHexes:
     jacobians: np.ndarray
     states: list[str]
     ids: np.ndarray | None = None
+    kinds: list[str] | None = None
 
     @classmethod
     def of(cls, mesh: Mesh, quality: ElementQuality, metric: str) -> WorstHexes:
-        """Find the worst hexes of a mesh by the metric with this name in `METRICS`."""
+        """Find the worst hexes of a mesh by the metric with this name in `METRICS`; valid ones without a value last."""
         values = metric_values(metric, mesh, quality)
-        worst = rank_worst(values, quality, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
+        better = METRICS[metric].better or 1
+        ranked = np.where(np.isnan(values) & ~quality.invalid, better * np.inf, values)
+        worst = rank_worst(ranked, quality, min(MAX_LISTED, values.size), better)
         inverted = quality.inverted[worst]
-        locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
+        locked = locked_hexes(mesh.points, mesh.elements[worst], mesh.fixed, inverted)
         states = np.select([locked, inverted, quality.invalid[worst]], ["locked", "inverted", "inside"], "").tolist()
         ids = hex_ids(mesh)
         of_file = None if ids is None else ids[worst]
-        return cls(worst, values[worst], quality.scaled_jacobian[worst], states, of_file)
+        kinds = [SOLID_KINDS[kind].name for kind in kinds_of(mesh.elements[worst])]
+        named = kinds if mesh.n_elements > mesh.n_hexes else None
+        return cls(worst, values[worst], quality.scaled_jacobian[worst], states, of_file, named)
 
 
 @dataclass(frozen=True)

@@ -85,15 +85,21 @@ def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DE
     (e, 2) int32
         Nodes of each edge, lower node first.
     """
-    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    key = _key(edges, len(points))
-    order = np.argsort(key, kind="stable")
-    first = np.flatnonzero(np.diff(key[order], prepend=-1))
-    count = np.diff(first, append=len(key))
     corners = points[faces]
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    pair = order[first] // 4, order[np.minimum(first + 1, len(key) - 1)] // 4
+    return edges_at_an_angle(faces, normals.repeat(4, axis=0), degrees)
+
+
+def edges_at_an_angle(faces: np.ndarray, normals: np.ndarray, degrees: float) -> np.ndarray:
+    """Find edges as `sharp_edges` does, by the normal of each face at each of its edges, (4 k, 3) float64."""
+    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    key = _key(edges, int(faces.max(initial=0)) + 1)
+    key[edges[:, 0] == edges[:, 1]] = -1  # triangles repeat their last node
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.diff(key[order], prepend=-1))
+    count = np.diff(first, append=len(key))
+    pair = order[first], order[np.minimum(first + 1, len(key) - 1)]
     turned = np.einsum("ij,ij->i", normals[pair[0]], normals[pair[1]]) < np.cos(np.radians(degrees))
     return edges[order[first[turned | (count != 2)]]]
 

@@ -61,7 +61,7 @@ def global_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     energy = MeshEnergy(mesh, smoother.norm)
     search = _RecordedSearch(smoother.line_search)
     x = energy.to_edge_units(mesh.points)
-    delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.hex_sizes)
+    delta = smoother.policy(energy).at(measure(mesh.points, mesh.elements), energy.hex_sizes)
     patch = Patch(mesh, mesh.points, node, smoother.norm, delta, energy.unit)
     known = patch.fields() | {"method": smoother.name, "unit": energy.unit, "is_global": True}
     taken = descend(energy, x, delta, smoother.direction(), search)
@@ -124,7 +124,7 @@ def step_to_target(
     """
     has_target, target = target is not None, after if target is None else target
     hexes = mesh.topology.node_corners[node] // 8
-    inverted = measure(mesh.points, np.ascontiguousarray(mesh.hexes[hexes])).n_inverted > 0
+    inverted = measure(mesh.points, np.ascontiguousarray(mesh.elements[hexes])).n_inverted > 0
     patch = Patch(mesh, mesh.points, node, smoother.norm, DISPLAY_DELTA if inverted else 0.0)
     direction, move = target - patch.before, after - patch.before
     squared = float(direction @ direction)
@@ -263,7 +263,7 @@ def _(smoother: General, mesh: Mesh, node: int) -> NodeStep:
 def _targets(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the hexes of a node, (k,), its target position in each, (k, 3), and their q(H), (k,)."""
     corners = mesh.topology.node_corners[node]
-    hexes = np.ascontiguousarray(mesh.hexes[corners // 8])
+    hexes = np.ascontiguousarray(mesh.elements[corners // 8])
     targets = np.empty((len(hexes), 8, 3))
     element_steps(mesh.points, hexes, smoother.scaling, smoother.relaxation, targets)
     return corners // 8, targets[np.arange(len(hexes)), corners % 8], measure(mesh.points, hexes).q

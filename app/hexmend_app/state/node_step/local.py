@@ -35,7 +35,7 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         The delta of the sweep, (3.2).
     """
     patch, star = Patch(mesh, points, node, smoother.norm, delta), mesh.topology.node_corners[node]
-    step = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta, target_matrices(mesh)))
+    step = local.recorded_step(points, mesh.elements, star, smoother.step_settings(delta, target_matrices(mesh)))
     moved, direction, trials = step.status is local.StepStatus.MOVED, np.array(step.direction), step.trials
     return NodeStep(
         **patch.fields(),

@@ -53,8 +53,8 @@ class Patch:
         self.hexes = star // 8
         self.node, self.before, self.norm, self.delta = node, points[node].copy(), norm, float(delta)
         self._target, factor = target_matrices(mesh), 1 / unit if unit else 0.0
-        at = local.patch_energy(points, mesh.hexes, star, factor, self.delta, self.norm, self._target)
-        self._patch = points, mesh.hexes, star, at.factor
+        at = local.patch_energy(points, mesh.elements, star, factor, self.delta, self.norm, self._target)
+        self._patch = points, mesh.elements, star, at.factor
         self.unit = 1 / at.factor if at.factor else 0.0
         self.energy, self.gradient = at.value, np.array(at.gradient)
         xx, xy, xz, yy, yz, zz = at.hessian

@@ -155,10 +155,12 @@ class Commands(QObject):
 
     def tag(self, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> None:
         """Add hexes to a tag or remove them from it, if the mesh is editable; an empty tag is deleted."""
+        hexes = np.asarray(hexes, dtype=np.int64)
+        hexes = hexes[hexes < self.document.now.mesh.n_hexes]  # sets hold no other cells
         before = self.document.now.mesh.hex_sets.get(name, ())
         after = with_tag(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
         if len(before) != len(after):
-            self._amend("tag" if on else "untag", with_tag, name, np.asarray(hexes, dtype=np.int64), on)
+            self._amend("tag" if on else "untag", with_tag, name, hexes, on)
 
     def remove_tag(self, name: str) -> None:
         """Delete a tag, if the mesh is editable."""

@@ -190,4 +190,4 @@ def _restore_mesh(
 
 def _same_hexes(mesh: Mesh, other: Mesh) -> bool:
     """Return True if two meshes have the same hexes and the same number of nodes."""
-    return mesh.n_nodes == other.n_nodes and np.array_equal(mesh.hexes, other.hexes)
+    return mesh.n_nodes == other.n_nodes and np.array_equal(mesh.elements, other.elements)

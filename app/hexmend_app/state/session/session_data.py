@@ -50,9 +50,9 @@ class SessionData:
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
-        hexes, nodes = mesh.n_hexes, mesh.n_nodes
+        hexes, nodes = mesh.n_elements, mesh.n_nodes
         for state in self._compared():
-            if state.mesh.hexes is not mesh.hexes:
+            if state.mesh.elements is not mesh.elements:
                 raise ValueError("it compares the mesh with states of another mesh")
         self.view.check(hexes)
         self.selection.check(hexes, nodes)
@@ -150,9 +150,9 @@ class _States:
             raise MeshError(f"there is no mesh {str(number)[:20]}")
         if number not in self._states:
             mesh = self._meshes[number]
-            key = id(mesh.points), id(mesh.hexes)
+            key = id(mesh.points), id(mesh.elements)
             if key not in self._quality:
-                self._quality[key] = measure(mesh.points, mesh.hexes, mesh.mid_nodes)
+                self._quality[key] = measure(mesh.points, mesh.elements, mesh.mid_nodes)
             self._states[number] = MeasuredMesh.of(mesh, self._quality[key])
         return self._states[number]
 

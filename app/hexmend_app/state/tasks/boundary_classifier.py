@@ -98,7 +98,7 @@ def classify_boundary(mesh: Mesh, quality: ElementQuality, degrees: FeatureAngle
     degrees : float or "auto"
         See `node_classes`.
     """
-    locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
+    locked = locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)
     freed = freed_by_sliding(mesh, locked, degrees)
     left = departures_from_surface(mesh, degrees)
     counts = int(np.count_nonzero(locked)), int(np.count_nonzero(freed))
@@ -116,4 +116,4 @@ class BoundaryClassifier(LatestTask):
 
     def of(self, mesh: Mesh) -> BoundaryClasses | None:  # type: ignore[override]
         """Return the last result if it is of this mesh, whatever its node positions."""
-        return self.result if self.result is not None and self.result.mesh.hexes is mesh.hexes else None
+        return self.result if self.result is not None and self.result.mesh.elements is mesh.elements else None

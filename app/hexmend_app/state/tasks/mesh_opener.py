@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.io.storage.file_progress import FileProgress, watch_files
+from hexmend.mesh.solid_cells import count_cells
 from hexmend_app.picture.picture_metadata import is_png, read_metadata
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.session import session_data
@@ -37,15 +38,15 @@ class LoadProgress:
     ----------
     stage : LoadStage
     path : Path
-    hexes : int
-        0 while their number is unknown.
+    cells : str
+        Number of cells; "" while it is unknown.
     file : FileProgress, optional
         Share of the file that is read, and the time left, while they are known.
     """
 
     stage: LoadStage
     path: Path
-    hexes: int = 0
+    cells: str = ""
     file: FileProgress | None = None
 
 
@@ -81,9 +82,9 @@ def _read(path: Path, task: Task) -> MeasuredMesh | SessionData:
             mesh = opened.document.now.mesh
         else:
             mesh = read(path)
-            task.report(LoadProgress(LoadStage.MEASURING, path, mesh.n_hexes))
+            task.report(LoadProgress(LoadStage.MEASURING, path, count_cells(mesh.elements)))
             opened = MeasuredMesh.of(mesh)  # type: ignore[assignment]
-        task.report(LoadProgress(LoadStage.PREPARING, path, mesh.n_hexes))
+        task.report(LoadProgress(LoadStage.PREPARING, path, count_cells(mesh.elements)))
         _ = mesh.topology.face_neighbours, mesh.topology.layers  # the view needs them to draw
     except HexmendError:
         raise

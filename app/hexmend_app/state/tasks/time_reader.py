@@ -152,7 +152,7 @@ def case_times(path: Path, state: MeasuredMesh) -> Iterator[Iteration | FileErro
             continue
         number += 1
         move = float(np.linalg.norm(time.points - before, axis=1).max()) / (mesh.mean_edge_length or 1.0)
-        label, quality = {TIME: f"{time.value:.12g}"}, measure(time.points, mesh.hexes)
+        label, quality = {TIME: f"{time.value:.12g}"}, measure(time.points, mesh.elements)
         yield Iteration(number, time.points, quality, time.value, move, label)
         before = time.points
 

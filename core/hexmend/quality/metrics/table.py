@@ -1,7 +1,7 @@
 """The metrics of `metrics.json` and their functions: by kernels, by the faces of finite volumes, and of the target.
 
 A range without a bound has null in its place. A hex for which a formula has no value gets the worse end of the full
-range, or the lower one where none is better.
+range, or the lower one where none is better; cells for which there is no formula get NaN.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from hexmend.kernels import faces, metrics
 from hexmend.mesh.edge_length import hex_lengths
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_EDGES
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes, as_points, as_points_and_hexes
 from hexmend.quality.corner_heights import least_heights
@@ -80,6 +81,9 @@ _KERNELS: dict[str, _KernelResult] = {
     "warpage": (faces.warpage, 1, 0),
 }
 
+#: Metrics of the axes and diagonals of hexes, which other cells do not have.
+_OF_HEXES_ALONE = ("aspect-ratio", "skew", "taper", "stretch", "diagonal")
+
 #: Metrics of the worst face of a hex as OpenFOAM's checkMesh measures it: fields of `FaceQuality`.
 _FACE_FIELDS = {
     "face-skewness": "skewness",
@@ -101,11 +105,21 @@ def _by_kernel(
     return values[index]
 
 
+def _of_hexes_alone(
+    result: _KernelResult, worst: float, points: np.ndarray, hexes: np.ndarray, quality: ElementQuality
+) -> np.ndarray:
+    """Compute a kernel's result as `_by_kernel` does, and NaN for cells that are no hexes."""
+    values = _by_kernel(result, worst, points, hexes, quality)
+    values[kinds_of(hexes) > 0] = math.nan
+    return values
+
+
 def _jacobian(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
     """Least of the centre's determinant and of sigma at the corners, the same that `ElementQuality.inverted` tests."""
     if len(quality.sigma) != len(hexes):
         raise MeshError(f"the quality is that of {len(quality.sigma)} hexes: expected that of the same {len(hexes)}")
-    return np.fmin(quality.sigma, _by_kernel((metrics.centre, 1, 0), -math.inf, points, hexes, quality))
+    centre = _by_kernel((metrics.centre, 1, 0), -math.inf, points, hexes, quality)
+    return np.where(kinds_of(hexes) > 0, quality.sigma, np.fmin(quality.sigma, centre))
 
 
 def _jacobian_ratio(bounds: np.ndarray) -> np.ndarray:
@@ -164,7 +178,7 @@ _OTHERS: dict[str, tuple[Values, MeshValues | None]] = {
 
 def _functions(name: str, worst: float) -> tuple[Values, MeshValues | None]:
     if name in _KERNELS:
-        return partial(_by_kernel, _KERNELS[name], worst), None
+        return partial(_of_hexes_alone if name in _OF_HEXES_ALONE else _by_kernel, _KERNELS[name], worst), None
     if name in _FACE_FIELDS:
         return partial(_faces_of_hexes, _FACE_FIELDS[name]), partial(_faces_of_mesh, _FACE_FIELDS[name])
     return _OTHERS[name]

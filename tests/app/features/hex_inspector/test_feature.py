@@ -7,9 +7,10 @@ from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QTableView
 
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
-from hexmend_app.features.hex_inspector.worst_list import ID, WorstList, write_worst
+from hexmend_app.features.hex_inspector.worst_list import ID, KIND, WorstList, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.mesh.selection import MAX_LISTED
 from hexmend_app.widgets.action_button import ActionButton
@@ -19,6 +20,7 @@ from tests.app.driving import LEFT, drag, heard_from, key, named, open_mesh, smo
 from tests.app.invalid_hexes import BENT, INSIDE, THREE, VALID
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
+from tests.core.solid_lattices import mixed
 
 
 def centre(window):
@@ -284,3 +286,65 @@ def test_neighbours_are_links(panel):
     panel.show_hex(details)
     links, neighbour = named(panel, LinkLabel, "Neighbours"), next(h for h in details.neighbours if h >= 0)
     assert f'href="{neighbour}"' in links.text()
+
+
+# Meshes of hexes, wedges, pyramids and tetrahedra.
+
+
+MIXED = scrambled(mixed(3), 0.1)
+NAMES = np.array(["hex", "wedge", "pyramid", "tetrahedron"])
+
+
+def test_cells_of_all_kinds_are_listed_with_their_kind(worst_list, tmp_path):
+    table = worst_list.findChild(QTableView)
+    assert table.isColumnHidden(KIND)
+    figures = measure(MIXED.points, MIXED.elements)
+    worst_list.set_quality(MIXED, figures)
+    assert not table.isColumnHidden(KIND)
+    kinds = NAMES[kinds_of(MIXED.elements)]
+    assert [table.model().index(row, KIND).data() for row in range(72)] == kinds[worst_list.hexes].tolist()
+    assert "72 cells, 0 inverted, 0 invalid." in " ".join(texts(worst_list))
+    write_worst(tmp_path / "worst.csv", MIXED)
+    head, first = (line.split(",") for line in (tmp_path / "worst.csv").read_text().splitlines()[:2])
+    assert (head[-1], first[-1]) == ("kind", kinds[int(first[0])])
+
+
+def test_valid_cells_without_a_value_are_listed_last(worst_list):
+    metric = worst_list.findChild(QComboBox)
+    metric.setCurrentIndex(metric.findData("skew"))
+    worst_list.set_quality(MIXED, measure(MIXED.points, MIXED.elements))
+    assert set(worst_list.hexes[:12]) == set(range(MIXED.n_hexes))
+
+
+@pytest.mark.parametrize(("kind", "nodes", "faces"), [(1, 6, 5), (2, 5, 5), (3, 4, 4)])
+def test_a_cell_is_shown_with_its_own_nodes_corners_and_neighbours(panel, kind, nodes, faces):
+    name = NAMES[kind]
+    cell = int(np.flatnonzero(kinds_of(MIXED.elements) == kind)[0])
+    details = describe_hex(MIXED, cell)
+    assert (details.nodes.size, details.neighbours.size) == (nodes, faces)
+    quality = measure(MIXED.points, MIXED.elements)
+    assert details.values["q"] == pytest.approx(quality.q[cell])
+    assert np.nanmean(details.corners) == pytest.approx(quality.q[cell])
+    assert np.isnan(details.corners).sum() == (name == "pyramid")  # its apex has no corner tetrahedron
+    panel.show_hex(details)
+    shown = texts(panel)
+    assert f"{name.capitalize()} {cell}" in shown
+    (corners,) = (text for text in shown if "q(T)" in text)
+    assert corners.count(">free<") + corners.count(">fixed<") == nodes
+    panel.show_node(describe_node(MIXED, int(details.nodes[0])))
+    assert any(" cells, " in text for text in texts(panel))
+
+
+@pytest.mark.slow
+def test_a_click_in_a_mixed_mesh_selects_a_tetrahedron(window, qtbot, tmp_path):
+    open_mesh(qtbot, window, tmp_path / "mixed.vtu", mixed(3))
+    window.canvas.viewport.view("+z")
+    window.canvas.draw_still()
+    click_view(window, pos=centre(window) - QPoint(40, 3))
+    selected = window.session.selection.hex
+    mesh = window.session.document.now.mesh
+    assert NAMES[kinds_of(mesh.elements[[selected]])[0]] == "tetrahedron"
+    window.show_panel("hex")
+    assert f"Tetrahedron {selected}" in texts(window.features["hex_inspector"].panel)
+    layer = window.canvas.viewport.overlay_layers.selection
+    assert layer.highlight.edges.lines.n_cells == 6

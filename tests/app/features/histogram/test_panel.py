@@ -10,6 +10,7 @@ from hexmend.quality import METRICS
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.scene.colour.value_range import within
+from hexmend_app.shell.panels.hex_counts import HexCounts
 from tests.app.driving import (
     LEFT,
     brought,
@@ -17,6 +18,7 @@ from tests.app.driving import (
     key,
     named,
     open_and_wait,
+    open_mesh,
     press,
     smooth,
     turn,
@@ -24,6 +26,7 @@ from tests.app.driving import (
     walk_to,
 )
 from tests.app.features.histogram.mouse import ends, point_at, valid
+from tests.core.solid_lattices import mixed
 
 
 def test_the_tooltip_has_the_counts_at_the_start_and_now(histogram, data):
@@ -288,3 +291,21 @@ def test_a_click_on_the_column_of_inverted_hexes_shows_only_them(window, front_h
     assert window.canvas.viewport.shown == window.session.document.now.quality.n_inverted > 0
     key(window, Qt.Key.Key_Escape)
     assert window.canvas.viewport.shown == 4000
+
+
+@pytest.mark.slow
+def test_the_cells_of_one_kind_are_counted(window, qtbot, front_histogram, tmp_path):
+    head = front_histogram.head
+    assert not head.kind_box.isVisible()  # of a mesh of hexes only
+    open_mesh(qtbot, window, tmp_path / "mixed.vtu", mixed(3))
+    assert front_histogram.summary.text() == "72 cells, 0 inverted"
+    assert [head.kind_box.itemText(k) for k in range(head.kind_box.count())] == [
+        "All cells", "Hexes", "Wedges", "Pyramids", "Tetrahedra",
+    ]  # fmt: skip
+    walk_to(window, head.kind_box, "pyramid")
+    assert front_histogram.summary.text() == "30 pyramids, 0 inverted"
+    walk_to(window, head.kind_box, "")
+    walk_to(window, head.metric_box, "skew")
+    assert front_histogram.summary.text() == "12 cells, 0 inverted"  # others have none
+    texts = [label.text() for label in window.findChildren(HexCounts)]
+    assert "12 hexes, 18 wedges, 30 pyramids, 12 tetrahedra" in texts[0]

@@ -16,7 +16,6 @@ KEYS = {
     "free": "M",
     "locked": "L",
     "kinds": "J",
-    "others": "G",
     "original": "O",
 }
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend import Cells, Mesh, gallery, io
+from hexmend import Mesh, gallery, io
 from hexmend_app.features.structure.feature import StructurePanel
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
@@ -15,7 +15,7 @@ from hexmend_app.shell.start.program import application
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.structure import find_structure
 from tests.app.driving import heard_from, open_and_wait, tick
-from tests.app.features.structure.layers import count, open_and_know, pixels, press, press_key, texts
+from tests.app.features.structure.layers import count, pixels, press, press_key, texts
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import displaced, grid
@@ -32,26 +32,6 @@ def test_a_key_shows_and_hides_a_layer(five):
     press_key(five, "irregular")
     assert five.session.view.look == Look(page=Page(shading=False))
     np.testing.assert_array_equal(pixels(five), before)
-
-
-@pytest.mark.slow
-def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
-    bare = grid(2, 2, 1)
-    tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]
-    pyramid = Cells("pyramid", np.array([[*bare.hexes[0, 4:], bare.n_nodes]]))
-    io.write(tmp_path / "mixed.exo", Mesh(np.vstack([bare.points, tip]), bare.hexes, cells=(pyramid,)))
-    open_and_know(qtbot, window, tmp_path / "mixed.exo")
-    (message,) = window.messages.messages()
-    assert "1 pyramid cell next to the hexes" in message[2]
-    assert window.canvas.viewport.overlay_layers.optional["others"].shown
-    layer = window.features["structure"].panel.layers["others"]
-    assert layer.box.isVisibleTo(window.features["structure"].panel)
-    assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
-    io.write(tmp_path / "plain.exo", bare)
-    open_and_know(qtbot, window, tmp_path / "plain.exo")
-    assert "next to the hexes" not in window.messages.text.text()
-    assert not window.canvas.viewport.overlay_layers.optional["others"].shown
-    assert not layer.box.isVisibleTo(window.features["structure"].panel)
 
 
 # The switch of curved faces in the window, and curved faces while a method runs.
@@ -169,7 +149,7 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
-        "kinds": False, "others": False, "original": True, "target": False, "interfaces": False,
+        "kinds": False, "original": True, "target": False, "interfaces": False,
         "curved": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]

@@ -8,11 +8,13 @@ import pytest
 from hexmend import Cells, FileError, Mesh, io
 from hexmend.boundary import SkinSurface
 from hexmend.gallery import make
+from hexmend.mesh.fixing import fix
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.second_order import MID_EDGES
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.formats.session.archive import read_archive, write_archive
 from hexmend_app.formats.session.session_file import VERSION, read_session, write_session
+from tests.core.solid_lattices import mixed, prisms
 
 KIND = "Hexmend session"
 
@@ -80,6 +82,16 @@ def test_meshes_that_shared_arrays_share_them_again(tmp_path):
     for field in ("hexes", "topology", "pinned", "hex_sets", "node_data"):
         assert getattr(one, field) is getattr(other, field)
     assert other.surface_points is one.points
+
+
+def test_states_of_a_mixed_mesh_share_their_cells_again(tmp_path):
+    for opened in (mixed(2), prisms(2)):
+        fixed = fix(opened.with_points(opened.points + 1), [0])
+        write_session(tmp_path / "a.hexmend", [opened, fixed], 0, None)
+        one, other = read_session(tmp_path / "a.hexmend").meshes
+        assert one.elements is other.elements
+        np.testing.assert_array_equal(one.elements, opened.elements)
+        np.testing.assert_array_equal(other.fixed, fixed.fixed)
 
 
 def test_the_surface_that_a_boundary_slides_on_is_there_again(tmp_path):

@@ -22,6 +22,7 @@ from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid, placed
+from tests.core.solid_lattices import honeycomb, mixed, prisms
 
 MESH = grid(4, 3, 2)
 COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
@@ -333,3 +334,33 @@ def test_normals_of_a_cut_face_are_those_of_the_cylinder():
     wall = (radius > 1.99) & (np.abs(facing) > 0.05)
     assert wall.any()
     assert (facing[wall] > np.cos(np.radians(1))).all()
+
+
+# Meshes of hexes, wedges, pyramids and tetrahedra.
+
+
+@pytest.mark.parametrize("kind", [mixed, prisms, honeycomb])
+@given(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda n: np.linalg.norm(n) > 0.1), st.floats(0.2, 0.8))
+def test_the_section_of_a_mixed_mesh_is_that_of_its_skin(kind, normal, share):
+    mesh = kind(3)
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    plane = Plane(normal, point=tuple(low + share * (high - low)))
+    owners = np.arange(mesh.n_elements)
+    got = sections(mesh, None, Cut((plane,), style=CutStyle.SMOOTH), np.zeros((len(owners), 3), np.uint8))
+    faces = Skin(mesh).visible()
+    skin = quads(faces.places(mesh.points), faces.quads, np.zeros((len(faces.quads), 3), np.uint8), faces.hexes)
+    inside = np.einsum("ij,j->i", got.cell_centers().points - plane.point, plane.normal)
+    assert np.abs(inside).max(initial=0) < 1e-6
+    left = remaining_skin(skin, Cut((plane,), style=CutStyle.SMOOTH)).merge(got).triangulate().clean()
+    a, b, c = np.moveaxis(np.asarray(left.points, float)[left.regular_faces], 1, 0)
+    outward = np.cross(b - a, c - a).sum(axis=0)  # of a closed surface the areas, as vectors, add up to zero
+    assert np.abs(outward).max() < 1e-4
+    assert len(np.unique(hexes_of(got))) == got.n_cells
+
+
+@pytest.mark.parametrize("height", [0.5, 1.0, 2.2, 2.9])
+def test_the_section_of_a_box_of_four_kinds_has_its_area(height):
+    mesh, colours = mixed(3), np.zeros((72, 3), np.uint8)
+    for normal in np.eye(3):
+        got = sections(mesh, None, Cut.at(tuple(normal), tuple(height * normal), CutStyle.SMOOTH), colours)
+        assert got.area == pytest.approx(9)

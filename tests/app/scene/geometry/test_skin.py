@@ -7,13 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend import Cells
 from hexmend.errors import MeshError
 from hexmend.kernels import skin
 from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.scene.geometry.coloured_polygons import polygons
 from hexmend_app.scene.geometry.occlusion import ambient_light, directions
 from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
+from tests.core.solid_lattices import mixed
 from tests.core.threads import by_threads
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)
@@ -191,3 +195,37 @@ def test_the_computation_can_be_cancelled():
     polygons, _ = faces(grid(2, 2, 2))
     assert ambient_light(polygons, lambda: asked.append(1) or len(asked) < 3) is None
     assert len(asked) == 3
+
+
+# Meshes of hexes, wedges, pyramids and tetrahedra.
+
+
+def enclosed(points, faces):
+    """Return the volume that faces, quads or triangles that repeat their last node, enclose."""
+    a, b, c, d = (points[faces[:, k]] for k in range(4))
+    triangles = np.einsum("ij,ij->i", a, np.cross(b, c)) + np.einsum("ij,ij->i", a, np.cross(c, d))
+    return triangles.sum() / 6
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.3]))
+def test_any_cells_of_a_mixed_mesh_are_enclosed_by_their_skin(seed, shrink):
+    mesh = mixed(3)
+    keep = np.random.default_rng(seed).random(mesh.n_elements) < 0.6
+    skin = Skin(mesh)
+    faces = skin.shrunk(shrink, keep) if shrink else skin.visible(keep)
+    volume = enclosed(faces.places(mesh.points), faces.quads)
+    assert volume == pytest.approx((1 - shrink) ** 3 * mesh.quality("volume")[keep].sum())
+    assert keep[faces.hexes].all()
+    assert len(skin.opened(faces, keep)) == len(faces.quads)
+    drawn = polygons(faces.places(mesh.points), faces.quads)
+    assert drawn.n_cells == len(faces.quads)
+    assert drawn.area == pytest.approx(drawn.triangulate().area)
+
+
+def test_a_quad_that_two_triangles_cover_is_seen_when_their_cells_are_hidden():
+    cubes = grid(2, 1, 1)
+    one, other = cubes.hexes
+    tetrahedra = other[[[0, 1, 2, 5], [0, 2, 3, 7], [0, 5, 7, 4], [2, 7, 5, 6], [0, 2, 7, 5]]]
+    mesh = Mesh(cubes.points, one[None], cells=(Cells("tetra", tetrahedra),))
+    faces, _ = visible_faces(mesh, np.arange(6) == 0)
+    assert enclosed(faces.places(mesh.points), faces.quads) == pytest.approx(1)

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend import Cells, Mesh
 from hexmend_app.picture import Cut, Isolate, Show
-from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.camera import CameraPose
 from hexmend_app.picture.colour_map import COLOUR_MAPS
 from hexmend_app.scene.camera.pane import Pane
@@ -16,7 +14,6 @@ from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.colour.colouring import INVALID_INSIDE, INVERTED
 from hexmend_app.scene.geometry.coloured_polygons import quads
 from hexmend_app.scene.layers.invalid_outline import InvalidOutline, outlines
-from hexmend_app.scene.layers.optional.other_cells import outer_faces
 from hexmend_app.scene.layers.overlay_layers import Ghosts
 from hexmend_app.scene.layers.surface import Surface
 from hexmend_app.scene.render.graphics import prepare_off_screen
@@ -83,53 +80,6 @@ def test_ghosts_follow_the_nodes():
     ghosts.draw(frame(), None, keep)
     assert not ghosts.shown
     assert ghosts.places.shape == (0, 3)
-
-
-# Non-hexahedral cells: their outer faces are drawn, but no faces that they share with other cells.
-
-
-OFF = Look(structure=Structure(frozenset()))
-
-
-def hybrid() -> Mesh:
-    """Return a mesh of 2 × 2 hexes with a pyramid on two of them, and a tetrahedron between the pyramids."""
-    bare = grid(2, 2, 1)
-    top = bare.hexes[:2, 4:]
-    tips = bare.points[top].mean(axis=1) + [0, 0, 1]
-    a, b = bare.n_nodes, bare.n_nodes + 1
-    ridge = np.intersect1d(top[0], top[1])
-    tetra = np.array([[*ridge, a, b]])
-    return Mesh(
-        np.vstack([bare.points, tips]),
-        bare.hexes,
-        cells=(Cells("pyramid", np.column_stack([top, [a, b]])), Cells("tetra", tetra), Cells("line", tetra[:, :2])),
-    )
-
-
-def test_shared_faces_are_omitted():
-    faces = outer_faces(hybrid())
-    assert faces.is_all_triangles  # the pyramids stand on hexes
-    assert faces.n_cells == 2 * 4 + 4 - 2 * 2
-
-
-def test_a_cut_removes_cells_by_their_centres():
-    assert outer_faces(hybrid(), Cut.at((1, 0, 0), (0.7, 0, 0))).n_cells == 4
-
-
-def test_they_are_drawn_unless_switched_off(off_screen):
-    mesh, viewport = hybrid(), off_screen(240, 180)
-    layer = viewport.overlay_layers.optional["others"]
-    viewport.draw(frame_of(mesh))
-    viewport.view("iso")
-    seen, poly = viewport.pixels(), layer.poly
-    assert layer.shown
-    assert viewport.places[:, 2].max() == 2
-    viewport.draw(frame_of(mesh))
-    assert layer.poly is poly
-    viewport.draw(frame_of(mesh, OFF))
-    without = viewport.pixels()
-    assert not layer.shown
-    assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
 
 
 # Outlines of invalid hexes, and of the regions that they form.

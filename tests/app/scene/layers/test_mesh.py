@@ -4,18 +4,21 @@ import numpy as np
 import pytest
 import pyvista as pv
 
+from hexmend import Cells, Mesh
 from hexmend.quality import measure
 from hexmend_app.picture import Colours, Cut, CutStyle, Page, Plane, Show
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.scene.colour.colouring import INVERTED, OPENED, OUTSIDE
 from hexmend_app.scene.geometry import occlusion
-from hexmend_app.scene.geometry.coloured_polygons import colours_of
+from hexmend_app.scene.geometry.coloured_polygons import colours_of, hexes_of
 from hexmend_app.scene.geometry.curved_edges import DIVISIONS, sharp_curved_edges
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.invalid_outline import outlines
 from hexmend_app.state.mesh.structure import sharp_edges
 from tests.app.scene.showing import MESH, frame_of
 from tests.core.curved_shell import curved_shell
+from tests.core.grids import grid, scrambled
+from tests.core.solid_lattices import mixed
 
 STEP = Look(
     show=Show(hidden=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes].mean(axis=1) > 2).all(axis=1))))
@@ -184,3 +187,31 @@ def test_the_original_surface_is_curved(shell_viewport):
     assert radii(surface.places).min() > 0.99
     draw_shell(shell_viewport, moved, original=SHELL.points, structure=Structure.of("original").without("curved"))
     assert len(surface.places) == len(np.unique(SHELL.topology.boundary_faces))
+
+
+def test_all_kinds_of_cells_are_drawn_in_the_colours_of_their_quality(viewport):
+    mesh = scrambled(mixed(3), 0.1)
+    viewport.draw(frame_of(mesh, Look()))
+    poly, colours = viewport.mesh_layer.whole, viewport.colours
+    assert len(poly.faces) != 5 * poly.n_cells  # there are triangles
+    np.testing.assert_array_equal(colours_of(poly), colours.of(hexes_of(poly)))
+    assert len(np.unique(colours.of(slice(None)), axis=0)) > 4
+
+
+def test_a_pyramid_beside_a_curved_hex_is_drawn_cut_and_marked(viewport):
+    cube = grid(1)
+    mids = np.full((1, 19), -1)
+    mids[0, 0] = 9  # of the edge from (0, 0, 0) to (1, 0, 0), which bulges
+    points = np.concatenate([cube.points, [[0.5, 0.5, 1.7]], [[0.5, -0.3, 0]]])
+    pyramid = Cells("pyramid", [[*cube.hexes[0, 4:], 8]])
+    mesh = Mesh(points, cube.hexes, mid_nodes=mids, cells=(pyramid,))
+    viewport.draw(frame_of(mesh, Look()))
+    assert set(hexes_of(viewport.mesh_layer.whole)) == {0, 1}
+    viewport.overlay_layers.selection.select(1, True, None)
+    assert viewport.overlay_layers.selection.highlight.edges.lines.n_cells == 8 * DIVISIONS
+    half = Cut.at((1, 0, 0), (0.5, 0, 0), CutStyle.SMOOTH)
+    viewport.draw(frame_of(mesh, Look(cut=half)))
+    section = viewport.mesh_layer.section.poly
+    of_pyramid = section.extract_cells(np.flatnonzero(hexes_of(section) == 1)).area
+    assert of_pyramid == pytest.approx(0.35)
+    assert section.area > 1.35

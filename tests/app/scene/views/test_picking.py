@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from hexmend.mesh.solid_cells import SOLID_KINDS, kinds_of
 from hexmend_app.picture.cut import Cut, CutStyle
 from tests.app.scene.showing import frame_of
 from tests.core.grids import grid
+from tests.core.solid_lattices import mixed
 
 MESH = grid(5)
 
@@ -40,3 +42,17 @@ def test_the_picked_point_on_a_section_lies_on_the_plane(seen):
     hit = seen.pick(100, 100)
     assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
     assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4
+
+
+def test_a_tetrahedron_is_picked_by_its_triangle(off_screen):
+    mesh, viewport = mixed(3), off_screen(200, 200)
+    viewport.draw(frame_of(mesh))
+    viewport.view("+z")
+    viewport.pixels()
+    hits = [viewport.pick(x, y) for x in range(40, 160, 10) for y in range(45, 160, 10)]
+    seen = {SOLID_KINDS[kinds_of(mesh.elements[[hit.hex]])[0]].name for hit in hits if hit is not None}
+    assert seen == {"tetrahedron", "wedge"}  # on top of the box
+    for hit in filter(None, hits):
+        nodes = mesh.elements[hit.hex]
+        away = np.linalg.norm(mesh.points[nodes] - hit.place, axis=1)
+        assert hit.node == nodes[away.argmin()]

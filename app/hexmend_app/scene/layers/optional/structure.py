@@ -202,7 +202,7 @@ def node_marks(mesh: Mesh, quality: ElementQuality, switches: Structure, kinds: 
     if switches.is_on("free"):
         marks[mesh.free] = _FREE
     if switches.is_on("locked") and quality.n_inverted:
-        marks[mesh.hexes[locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)]] = _LOCKED
+        marks[mesh.elements[locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)]] = _LOCKED
     return marks
 
 

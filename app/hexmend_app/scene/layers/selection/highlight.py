@@ -6,7 +6,6 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.geometry.curved_edges import divided, segments
@@ -45,35 +44,36 @@ class Highlight:
         self._pixel_ratio = pixel_ratio
         self.renderer = pane.overlay()  # in front of everything else
         self.edges = HexEdges(pane.renderer, pixel_ratio)
-        self._corners = np.zeros((1, 8, 3))
+        self._corners, self._values = np.zeros((8, 3)), np.empty(0)
         self._texts = [label_actor(self.renderer, round(14 * self._pixel_ratio)) for _ in range(8)]
         self._point, self._arrow = (flat_actor(self.renderer, colour=colour) for colour in (_NODE, _ARROW))
         self._point.GetProperty().SetPointSize(12 * pixel_ratio)
         self._point.GetProperty().RenderPointsAsSpheresOn()
-        self._with_values = False
         self.renderer.AddObserver("StartEvent", self._fit_texts)
         self.hide()
 
-    def show(self, corners: np.ndarray, values: np.ndarray | None = None, middles: np.ndarray | None = None) -> None:
-        """Highlight hexes with these corners.
+    def show(self, ends: np.ndarray, corners: np.ndarray, values: np.ndarray, middles: np.ndarray | None) -> None:
+        """Highlight hexes.
 
         Parameters
         ----------
-        corners : (k, 8, 3) float64
-        values : (8,) float64, optional
-            Values shown at the corners of the first hex.
-        middles : (k, 12, 3) float64, optional
+        ends : (e, 2, 3) float64
+            Ends of their edges.
+        corners : (c, 3) float64
+            Corners of the first hex.
+        values : (c,) float64
+            Values shown at these corners; empty for none, NaN for no value.
+        middles : (e, 3) float64, optional
             Mid-nodes of curved edges, see `HexEdges.show`.
         """
         self._corners = corners
-        self.edges.show(corners, middles)
-        self._with_values = values is not None
+        self.edges.show(ends, middles)
+        self._values = values
         self.renderer.DrawOn()
-        outside = corners[0] + 0.15 * (corners[0] - corners[0].mean(axis=0))
-        for k, text in enumerate(self._texts):
-            if values is not None:
-                text.SetInput(f"{values[k]:.2f}")
-                text.SetPosition(*outside[k])
+        outside = corners + 0.15 * (corners - corners.mean(axis=0))
+        for text, value, place in zip(self._texts, values, outside, strict=False):
+            text.SetInput(f"{value:.2f}")
+            text.SetPosition(*place)
 
     def show_node(self, point: np.ndarray | None, arrow: np.ndarray | None = None) -> None:
         """Mark a node, (3,), with an optional arrow, (3,), from it; None removes the mark."""
@@ -88,15 +88,14 @@ class Highlight:
 
     def _fit_texts(self, *_: object) -> None:
         """Show the values if the hex is large enough in the picture."""
-        on = self._with_values and self._radius() > self._pixel_ratio * _MIN_RADIUS
-        for text in self._texts:
-            text.SetVisibility(on)
+        large = self._radius() > self._pixel_ratio * _MIN_RADIUS
+        for k, text in enumerate(self._texts):
+            text.SetVisibility(large and k < len(self._values) and not np.isnan(self._values[k]))
 
     def _radius(self) -> float:
         """Return the radius of the hex in pixels."""
-        corners = self._corners[0]
-        centre = corners.mean(axis=0)
-        return pixels(self.renderer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
+        centre = self._corners.mean(axis=0)
+        return pixels(self.renderer, np.sqrt(np.square(self._corners - centre).sum(axis=1).max()), centre)
 
     def hide(self) -> None:
         """Hide the highlight."""
@@ -132,23 +131,21 @@ class HexEdges:
             offset_depth(actor.GetMapper(), lines=depth, slope=-2.0)
             self._actors.append(actor)
 
-    def show(self, corners: np.ndarray, middles: np.ndarray | None = None) -> None:
+    def show(self, ends: np.ndarray, middles: np.ndarray | None = None) -> None:
         """Draw the edges of hexes.
 
         Parameters
         ----------
-        corners : (k, 8, 3) float64
-        middles : (k, 12, 3) float64, optional
-            Points halfway along the edges, in the order of `EDGES`; None for straight edges.
+        ends : (e, 2, 3) float64
+        middles : (e, 3) float64, optional
+            Points halfway along the edges; None for straight edges.
         """
-        points = corners[:, EDGES].reshape(-1, 2, 3)
-        if middles is not None:
-            points = divided(points, middles.reshape(-1, 3))
+        points = ends if middles is None else divided(ends, middles)
         chains = np.arange(points.shape[0] * points.shape[1]).reshape(points.shape[:2])
         self.lines = pv.PolyData(points.reshape(-1, 3), lines=pv.CellArray.from_regular_cells(segments(chains)))
         for actor in self._actors:
             actor.GetMapper().SetInputData(self.lines)
-            actor.SetVisibility(len(corners) > 0)
+            actor.SetVisibility(len(ends) > 0)
 
     def hide(self) -> None:
         """Draw no edges."""

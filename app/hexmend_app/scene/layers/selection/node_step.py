@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
-from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.solid_cells import cell_faces, edges_of
 from hexmend_app.scene.camera.pane import Pane
 from hexmend_app.scene.layers.flat_actor import flat_actor
 from hexmend_app.state.node_step import NodeStep
@@ -107,7 +107,7 @@ class NodeStepMarks:
         step, nodes = self.step, np.unique(self._hexes)
         hexes, node = np.searchsorted(nodes, self._hexes), int(np.searchsorted(nodes, step.node))
         x = points[nodes]
-        edges = np.unique(np.sort(hexes[:, EDGES].reshape(-1, 2), axis=1), axis=0)
+        edges = np.unique(np.sort(edges_of(hexes), axis=1), axis=0)
         spokes = edges[(edges == node).any(axis=1)]
         length = float(np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).mean())
         for actor, ends in ((self._edges, edges), *((actor, spokes) for actor in self._spokes)):
@@ -128,7 +128,7 @@ class NodeStepMarks:
         step, moved = self.step, x.copy()
         at_end = np.square(x[node] - step.after).sum() < np.square(x[node] - step.before).sum()
         moved[node] = step.before if at_end else step.after
-        faces = hexes[:, FACES].reshape(-1, 4)
+        faces = cell_faces(hexes).reshape(-1, 4)
         moves = step.move > 0
         _draw(self._ghost, pv.PolyData.from_regular_faces(moved, faces[(faces == node).any(axis=1) & moves]))
         _draw(

@@ -5,24 +5,19 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.second_order.curved_geometry import hex_nodes
-from hexmend.mesh.second_order.mid_node_lookup import EDGE_COLUMNS
-from hexmend.quality import corner_qualities
+from hexmend.mesh.solid_cells import edges_of, has_node, kinds_of
 from hexmend.quality.validity import Validity, certify
 from hexmend_app.scene.camera.pane import Pane
-from hexmend_app.scene.geometry.curved_elements import edge_middles
+from hexmend_app.scene.geometry.curved_elements import edge_mid_nodes, edge_middles
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.scene.layers.selection.highlight import Highlight
 from hexmend_app.scene.layers.selection.negative_jacobian import NegativeJacobian
 from hexmend_app.scene.layers.selection.node_step import NodeStepMarks
-from hexmend_app.state.mesh.inspection import NodeDetails
+from hexmend_app.state.mesh.inspection import NodeDetails, all_mid_nodes, node_qualities
 from hexmend_app.state.node_step import NodeStep
 
 _NONE = np.empty(0, dtype=np.int64)
-
-#: Columns of `Mesh.mid_nodes` of the mid-nodes of `EDGES`, (12,).
-_MID_COLUMNS = EDGE_COLUMNS[EDGES[:, 0], EDGES[:, 1]]
 
 
 class SelectionLayer:
@@ -110,7 +105,7 @@ class SelectionLayer:
             self._node_step.hide()
         else:
             mesh = self._frame.mesh
-            self._node_step.show(step, mesh.hexes[step.hexes], mesh.points)
+            self._node_step.show(step, mesh.elements[step.hexes], mesh.points)
         self._show_hexes()
 
     def _mark_node(self, node: NodeDetails | None) -> None:
@@ -119,7 +114,7 @@ class SelectionLayer:
             self.highlight.show_node(None)
             return
         steepness = float(np.linalg.norm(node.downhill))
-        corners = self._frame.mesh.points[self._frame.mesh.hexes[self.hex]]
+        corners = self._frame.mesh.points[np.unique(self._frame.mesh.elements[self.hex])]
         length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
         moves = node.kind == "free" and steepness > 0
         self.highlight.show_node(node.point, node.downhill * (length / steepness) if moves else None)
@@ -130,19 +125,19 @@ class SelectionLayer:
             self.negative.hide()
             return
         mesh = self._frame.mesh
-        nodes, points = mesh.hexes[self.hexes], mesh.points
-        values = corner_qualities(points, nodes)[0] if self._with_corners else None
-        middles = None
+        nodes, points = mesh.elements[self.hexes], mesh.points
+        values = node_qualities(points, nodes[0]) if self._with_corners else np.empty(0)
+        edges, middles = edges_of(nodes), None
         if self._frame.curved:
-            middles = edge_middles(points, nodes[:, EDGES], mesh.mid_nodes[self.hexes[:, None], _MID_COLUMNS])
-        self.highlight.show(points[nodes], values, middles)
+            middles = edge_middles(points, edges, edge_mid_nodes(nodes, all_mid_nodes(mesh)[self.hexes], edges))
+        self.highlight.show(points[edges], points[nodes[0]][has_node(nodes)[0]], values, middles)
         self._show_negative()
 
     def _show_negative(self) -> None:
         """Draw where a single hex is invalid, by its own map: that of its mid-nodes, if it has some."""
-        mesh, hexes = self._frame.mesh, self._frame.mesh.hexes[self.hexes]
-        mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[self.hexes]
-        if self.hex is None or certify(mesh.points, hexes, mid_nodes)[0] == Validity.VALID:
+        mesh, hexes = self._frame.mesh, self._frame.mesh.elements[self.hexes]
+        mid_nodes = None if mesh.mid_nodes is None else all_mid_nodes(mesh)[self.hexes]
+        if self.hex is None or kinds_of(hexes)[0] or certify(mesh.points, hexes, mid_nodes)[0] == Validity.VALID:
             self.negative.hide()
         elif mid_nodes is None or (mid_nodes < 0).all():
             self.negative.show(mesh.points[hexes[0]])
