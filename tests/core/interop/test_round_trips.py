@@ -6,7 +6,7 @@ from hypothesis import given
 
 import hexmend as hx
 from hexmend.errors import InstallationError
-from hexmend.interop.conversion import with_side_marks, with_side_sets
+from hexmend.interop.meshio_mesh import with_side_marks, with_side_sets
 from tests.core.grids import grid
 from tests.core.interop.meshes import assert_round_trip, of_gallery, with_all_data, with_sets
 from tests.core.io.kept import middles_are_in_the_middle

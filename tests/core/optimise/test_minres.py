@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.optimise.linear_solvers import Minres
-from hexmend.optimise.minres import minres
+from hexmend.optimise.linear_solvers import Minres, minres
 
 
 def indefinite(size, seed, condition):

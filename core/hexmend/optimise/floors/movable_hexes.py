@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.energy import MeshEnergy
-from hexmend.energy.barriers.corner_heights import corner_heights
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
-from hexmend.energy.barriers.height_barrier import HeightBarrier
+from hexmend.energy.barriers.height_barrier import HeightBarrier, corner_heights
 from hexmend.energy.hex_energy import pack_corners
 from hexmend.kernels import elements
 from hexmend.kernels import floor_barrier as kernels

@@ -11,7 +11,7 @@ from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, Sweep, method
-from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
+from hexmend.smoothers.laplacian.laplacian import ConstrainedMeans
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 
 
