@@ -146,14 +146,6 @@ def _check(better: str, level: str, of: str, where: str = "", **fields: Any) -> 
     return Check(of=quantity(of, where), better=1 if better == "higher" else -1, level=Level[level.upper()], **values)
 
 
-for _name, _entry in tomllib.loads(Path(__file__).with_name("limits.toml").read_text(encoding="utf-8")).items():
-    _checks = tuple(_check(**check) for check in _entry["checks"])
-    _reservation = QUOTED if _entry.get("quoted") else ""
-    SOLVERS.add(
-        _name, Solver(_name, _entry["title"], _entry["tests_validity"], _checks, _entry["omitted"], _reservation)
-    )
-
-
 #: Default of LS-DYNA's TSSFAC in *CONTROL_TIMESTEP.
 TIME_STEP_FACTOR = 0.9
 #: Abscissae of the two-point Gauss rule on [0, 1].
@@ -251,3 +243,11 @@ def quantity(name: str, where: str = "") -> Callable[[Measures], np.ndarray]:
     _, is_metric, metric = name.rpartition("metric ")
     of = methodcaller("metric", metric) if is_metric else QUANTITIES.get(name) or attrgetter(name)
     return (lambda measures: of(measures)[attrgetter(where)(measures)]) if where else of
+
+
+for _name, _entry in tomllib.loads(Path(__file__).with_name("limits.toml").read_text(encoding="utf-8")).items():
+    _checks = tuple(_check(**check) for check in _entry["checks"])
+    _reservation = QUOTED if _entry.get("quoted") else ""
+    SOLVERS.add(
+        _name, Solver(_name, _entry["title"], _entry["tests_validity"], _checks, _entry["omitted"], _reservation)
+    )
