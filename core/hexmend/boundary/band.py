@@ -19,7 +19,7 @@ from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.boundary.tolerances import ROUNDING
 from hexmend.kernels import closest_point
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.components import any_of_rows
 
 
 def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:

@@ -10,8 +10,7 @@ from hexmend.kernels.closest_point import numbers_of_different_points
 from hexmend.mesh.collapsed_hexes import has_repeated_node
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology.close_pairs import close_pairs
-from hexmend.mesh.topology.components import components
+from hexmend.mesh.topology.components import close_pairs, components
 from hexmend.terminal_text import count_phrase
 
 #: Largest distance of coincident nodes, in mean edge lengths.

@@ -1,4 +1,7 @@
-"""Kershaw: a lattice of the unit cube, bent into zigzag layers; a benchmark of smoothing whose optimum is known."""
+"""Kershaw: a lattice of the unit cube, bent into zigzag layers; a benchmark of smoothing whose optimum is known.
+
+Cube: a structured grid of the unit cube, whose optimum is known.
+"""
 
 from __future__ import annotations
 
@@ -66,3 +69,21 @@ def kershaw_map(points: np.ndarray, eps: float) -> np.ndarray:
 def _right(t: np.ndarray, eps: float) -> np.ndarray:
     """Map [0, 1] to itself, the upper half compressed by eps."""
     return np.where(t <= 0.5, (2 - eps) * t, 1 + eps * (t - 1))
+
+
+@gallery_mesh
+@dataclass(frozen=True)
+class Cube(GalleryMesh):
+    """Grid of n x n x n cubes in the unit cube."""
+
+    name = "cube"
+    title = "Cube"
+    help = "A structured grid of the unit cube. The optimum is the perfect grid for every scramble."
+    source = "Hexmend"
+
+    size: int = parameter(1000, low=1, high=10**8, help="Approximate number of hexes: the nearest cube number.")
+
+    def regular(self) -> Mesh:
+        n = max(1, round(self.size ** (1 / 3)))
+        places = np.linspace(0, 1, n + 1)
+        return Mesh(tensor_product(places, places, places), box_hexes(n, n, n))

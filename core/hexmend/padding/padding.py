@@ -17,7 +17,7 @@ from hexmend.boundary.normals import unit_vectors
 from hexmend.errors import MeshError, ParameterError
 from hexmend.io import read
 from hexmend.iteration import Iteration, Result
-from hexmend.locking.visibility import nodes_without_space
+from hexmend.locking.locked_corners import nodes_without_space
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding.inserted_layer import Sheet
 from hexmend.padding.mid_nodes import padded_mid_nodes

@@ -15,7 +15,7 @@ from hexmend.energy import Motion
 from hexmend.errors import ParameterError
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.components import any_of_rows
 from hexmend.ranks.mpi_ranks import MPIRanks
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from hexmend.smoothers.constrained_steps import constrained_steps
 from hexmend.smoothers.general import General
 from hexmend.smoothers.getme.sequential import SequentialGETMe
 from hexmend.smoothers.getme.simultaneous import GETMe
-from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend.smoothers.global_.descent import GlobalDescent
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from hexmend.smoothers.local.single_node import LocalDescent

@@ -18,20 +18,18 @@ from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
-from hexmend.io.surfaces import obj, ply, stl, vtk
-from hexmend.io.surfaces.format import Polygons
+from hexmend.io.surfaces.formats import Polygons, read_legacy, read_obj, read_ply, read_stl, read_vtp
 from hexmend.kernels import closest_point
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology.close_pairs import close_pairs
-from hexmend.mesh.topology.components import components
+from hexmend.mesh.topology.components import close_pairs, components
 
 #: Title of each format, and its reader, by suffix.
 SURFACE_FORMATS: dict[str, tuple[str, Callable[[Path], Polygons]]] = {
-    ".stl": ("STL", stl.read),
-    ".obj": ("OBJ", obj.read),
-    ".ply": ("PLY", ply.read),
-    ".vtp": ("VTP", vtk.read),
-    ".vtk": ("VTK legacy", vtk.read_legacy),
+    ".stl": ("STL", read_stl),
+    ".obj": ("OBJ", read_obj),
+    ".ply": ("PLY", read_ply),
+    ".vtp": ("VTP", read_vtp),
+    ".vtk": ("VTK legacy", read_legacy),
 }
 #: Points at a smaller distance, relative to the diagonal of the bounding box, are merged.
 _MERGE_TOLERANCE = 1e-9

@@ -1,4 +1,9 @@
-"""Base of the local methods that move one node at a time: Algorithm 3.2."""
+"""Base of the local methods that move one node at a time: Algorithm 3.2.
+
+Newton's method, with the Hessian as it is and made positive definite: Algorithm 3.2 with A.3, A.4 and A.5.
+
+Local optimisation by steepest descent: Algorithm 3.2 with A.2 and A.5.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +17,7 @@ from hexmend.kernels import local
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
-from hexmend.smoothers.base import Steps
+from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.local.base import LocalOptimiser
 from hexmend.smoothers.sliding_smoother import Sweeps
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
@@ -68,3 +73,36 @@ class LocalDescent(LocalOptimiser):
     def step_settings(self, delta: float, target: TargetMatrices | None = None) -> local.NodeStepSettings:
         """Settings of a node's step in a sweep with that delta and the target of the mesh."""
         return local.NodeStepSettings(self.direction, delta, self.norm, self.line_search, target)
+
+
+@method
+class LocalModifiedNewton(LocalDescent):
+    """Node after node by Newton's direction, the 3 x 3 Hessian made positive definite."""
+
+    name = "local-mnr"
+    title = "Local modified Newton"
+    help = "Like local Newton-Raphson, with small or negative eigenvalues of the 3 x 3 Hessian raised."
+    source = "Wilson 3.2, Algorithms 3.2, A.4 and A.5"
+    direction = local.Direction.MODIFIED_NEWTON
+
+
+@method
+class LocalNewtonRaphson(LocalDescent):
+    """Node after node by Newton's direction for its patch's energy."""
+
+    name = "local-nr"
+    title = "Local Newton-Raphson"
+    help = "Moves node after node by a Newton step for its patch's energy. Accurate and robust, expensive sweeps."
+    source = "Wilson 3.2, Algorithms 3.2, A.3 and A.5"
+    direction = local.Direction.NEWTON
+
+
+@method
+class LocalSteepestDescent(LocalDescent):
+    """Node after node down the gradient of its patch's energy."""
+
+    name = "local-sd"
+    title = "Local steepest descent"
+    help = "Moves node after node down the gradient of its patch's energy. Smooths and untangles; reaches the optimum."
+    source = "Wilson 3.2, Algorithms 3.2, A.2 and A.5"
+    direction = local.Direction.STEEPEST_DESCENT

@@ -98,8 +98,6 @@ def reach_goal(
         message = limit_message(floors.energy.mesh, active, floors.values.jacobian, "scaled Jacobian")
         return Reached(floors.points, message, active, boundary)
     if settings.goal == "time-step":
-        from hexmend.smoothers.mend.goals import raise_time_step
-
         points, least, active = yield from raise_time_step(floors.energy, floors.points)
         return Reached(points, limit_message(energy.mesh, active, least, "time step"), active, boundary)
     return Reached(floors.points, boundary=boundary)

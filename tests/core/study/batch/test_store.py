@@ -5,9 +5,8 @@ import json
 import pytest
 
 from hexmend import FileError, gallery, io
-from hexmend.study.batch.mesh_files import find_meshes
-from hexmend.study.batch.table_columns import COLUMNS, Status, answer, is_answer
-from hexmend.study.batch.task import Store, Task
+from hexmend.study.batch.plan import find_meshes
+from hexmend.study.batch.task import COLUMNS, Status, Store, Task, answer, is_answer
 
 TASK = Task("/some/mesh.vtk", "0", {"recipe": None, "stages": []}, "0.1", max_seconds=5, max_memory_mb=100)
 

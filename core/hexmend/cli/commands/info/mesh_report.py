@@ -26,7 +26,6 @@ from hexmend.quantity import format_count
 from hexmend.terminal_text import WorsenedText, count_phrase, printable
 
 if TYPE_CHECKING:
-    from hexmend.solver_checks import Report
     from hexmend.locking import Locking
     from hexmend.solver_checks import Report
 
@@ -77,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     if mesh.materials is not None:
         _print_materials(mesh)
     if mesh.embedded.any():
-        from hexmend.run.interface_messages import describe_embedded
+        from hexmend.run.messages import describe_embedded
 
         print(describe_embedded(mesh))
     if second_order is not None:
@@ -87,8 +86,6 @@ def run(args: argparse.Namespace) -> int:
     if args.metrics:
         print_spreads(metrics)
     if checks is not None:
-        from hexmend.cli.commands.info.mesh_report import print_checks
-
         print_checks(checks)
     _print_problems(args, mesh, findings)
     print(printable(judgement.line))
@@ -114,7 +111,7 @@ def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ..
 
 def _print_materials(mesh: Mesh) -> None:
     """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
-    from hexmend.run.interface_messages import describe_interfaces
+    from hexmend.run.messages import describe_interfaces
 
     materials = mesh.materials
     counts = np.bincount(materials.of_hex).tolist()

@@ -22,12 +22,10 @@ from hexmend.io.slices import GridSlice, SlicedFile, open_slices, slice_of
 from hexmend.layers import named_walls
 from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import AUTO
-from hexmend.ranks.divided.checks import NotDivisibleError, may_have_layers
+from hexmend.ranks.divided.checks import NotDivisibleError, check_orientation, may_have_layers, summarise_part
 from hexmend.ranks.divided.divided_mesh import DividedMesh
-from hexmend.ranks.divided.figures import summarise_part
-from hexmend.ranks.divided.orientation import check_orientation
 from hexmend.ranks.divided.reading import divide_slices
-from hexmend.ranks.launching import local_ranks
+from hexmend.ranks.mpi_ranks import local_ranks
 from hexmend.ranks.rank_run import RankRun
 from hexmend.smoothers import Smoother
 

@@ -22,7 +22,7 @@ from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import writer_for
 from hexmend.io.files import check_not_included
 from hexmend.kernels import cores, cores_for, release_free_memory, set_threads, threads
-from hexmend.ranks.launching import local_ranks
+from hexmend.ranks.mpi_ranks import local_ranks
 from hexmend.ranks.rank_run import RankRun
 from hexmend.ranks.rank_stages import check_method
 from hexmend.report.records import write_json

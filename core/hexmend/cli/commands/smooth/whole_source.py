@@ -20,7 +20,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import measure, measure_against_target, summarise
-from hexmend.ranks.launching import local_ranks
+from hexmend.ranks.mpi_ranks import local_ranks
 from hexmend.ranks.rank_part import distribute
 from hexmend.ranks.rank_run import RankRun, gather_points
 from hexmend.ranks.rank_sliding import distribute_sliding

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.joined_files import JoinedFiles
-from hexmend.io.coordinates.text_coordinates import shortened
+from hexmend.io.coordinates.text_coordinates import Edits, shortened
 from hexmend.io.formats.lsdyna.deck import Keyword, join, keywords
 from hexmend.io.formats.lsdyna.reader import NODE_COLUMNS
 from hexmend.io.storage.atomic import AtomicFiles

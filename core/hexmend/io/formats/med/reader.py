@@ -19,8 +19,15 @@ from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED, check_suffix, unread_note
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
-from hexmend.io.formats.med.arrays import KIND_OF_TYPE, ORDER, TYPE_OF_KIND, decode_names, read_array, read_integers
-from hexmend.io.formats.med.fields import read_fields
+from hexmend.io.formats.med.fields import (
+    KIND_OF_TYPE,
+    ORDER,
+    TYPE_OF_KIND,
+    decode_names,
+    read_array,
+    read_fields,
+    read_integers,
+)
 from hexmend.io.storage import subprocess_reader
 
 
