@@ -12,7 +12,7 @@ from hexmend.boundary import freed_by_sliding
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.named_sets import nodes_in_set
+from hexmend.mesh.rules.periodic_sets import nodes_in_set
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.quality import ElementQuality, measure, objective

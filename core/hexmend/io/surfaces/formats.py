@@ -1,8 +1,8 @@
 """Formats of surfaces: STL, Wavefront's OBJ, Stanford's PLY, and VTK's XML (.vtp) and legacy (.vtk).
 
 OBJ and PLY are parsed by meshlane, which does not read all variants of STL. trimesh is not used: it splits quads,
-misreads an OBJ face whose corners are written in several forms, such as `1/1/1 2/1/1 3//1 4/1`, reads a PLY file that is
-cut short as a smaller surface, and takes 0.5 s to import. VTK's reader of PLY crashes on such a file.
+misreads an OBJ face whose corners are written in several forms, such as `1/1/1 2/1/1 3//1 4/1`, reads a PLY file that
+is cut short as a smaller surface, and takes 0.5 s to import. VTK's reader of PLY crashes on such a file.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ def summarise_part(part: RankPart, points: np.ndarray) -> Summary:
     )
 
 
-def check_orientation(mesh: DividedMesh) -> None:
+def check_divided_orientation(mesh: DividedMesh) -> None:
     """Check that no hex is numbered left-handed; all ranks call it together.
 
     Raises

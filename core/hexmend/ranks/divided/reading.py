@@ -20,8 +20,7 @@ from hexmend.io.slices import GridSlice
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS
 from hexmend.ranks.divided.checks import check_divisible, check_nodes, left_handed_hexes, mean_edge_length
-from hexmend.ranks.divided.divided_mesh import DividedMesh, PieceCells
-from hexmend.ranks.divided.exchange import Directory, send_rows
+from hexmend.ranks.divided.divided_mesh import Directory, DividedMesh, PieceCells, send_rows
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart, too_many_ranks
 

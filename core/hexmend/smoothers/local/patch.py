@@ -17,7 +17,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.parameters import Parameter, parameter
 from hexmend.smoothers.base import Steps, method
-from hexmend.smoothers.local.base import LocalOptimiser
+from hexmend.smoothers.local.single_node import LocalOptimiser
 from hexmend.smoothers.sliding_smoother import Sweeps
 
 _SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, low in (("size", 1), ("overlap", 0)))

@@ -17,8 +17,7 @@ from hexmend.io.base.numbering import check_numbers, lookup
 from hexmend.io.base.remedies import DAMAGED, unread_note
 from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryPiece, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
-from hexmend.io.formats.exodus.columns import join_columns
-from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
+from hexmend.io.formats.exodus.columns import FACE_OF_SIDE, ORDER, PINS_PROPERTY, join_columns, kinds_of
 from hexmend.io.formats.exodus.netcdf3 import is_classic
 from hexmend.io.formats.exodus.records import id_lines, read_records, unread_notes
 from hexmend.io.formats.exodus.store import CheckedVariables, ExodusStore, HDF5Store, open_store
