@@ -50,13 +50,13 @@ from hexmend.smoothers import METHODS as METHODS
 from hexmend.smoothers import Smoother as Smoother
 from hexmend.smoothers import method as method
 from hexmend.smoothers.general import General as General
-from hexmend.smoothers.getme.sequential import SequentialGETMe as SequentialGETMe
 from hexmend.smoothers.getme.simultaneous import GETMe as GETMe
+from hexmend.smoothers.getme.simultaneous import SequentialGETMe as SequentialGETMe
 from hexmend.smoothers.global_.descent import GlobalModifiedNewton as GlobalModifiedNewton
 from hexmend.smoothers.global_.descent import GlobalNewtonRaphson as GlobalNewtonRaphson
 from hexmend.smoothers.global_.descent import GlobalSteepestDescent as GlobalSteepestDescent
 from hexmend.smoothers.laplacian.laplacian import Laplacian as Laplacian
-from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian as SmartLaplacian
+from hexmend.smoothers.laplacian.laplacian import SmartLaplacian as SmartLaplacian
 from hexmend.smoothers.local.patch import LocalPatch as LocalPatch
 from hexmend.smoothers.local.single_node import LocalModifiedNewton as LocalModifiedNewton
 from hexmend.smoothers.local.single_node import LocalNewtonRaphson as LocalNewtonRaphson

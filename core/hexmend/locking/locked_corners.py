@@ -14,7 +14,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.normals import unit_vectors
 from hexmend.boundary.sliding import SlidingBoundary
-from hexmend.boundary.sliding.flat_parts import FlatPart, flat_parts
+from hexmend.boundary.sliding.curved_faces import FlatPart, flat_parts
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import SOLID_KINDS, corner_tetrahedra, has_corner, kinds_of

@@ -9,7 +9,7 @@ from hexmend import Cells, FileError, MeshError, gallery, io
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_with_kept_corners
 from hexmend.boundary.marking import marked_segments, with_curve, without_curves
 from hexmend.cli.main import main
-from hexmend.io.surfaces.curve_file import with_curves_of_file
+from hexmend.io.surfaces.read import with_curves_of_file
 from hexmend_app.features.curves.edge_path import curve_through, edge_path
 from tests.core.boundary.solids import ball
 from tests.core.grids import grid

@@ -10,7 +10,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.linear_motion import LinearMotion
-from hexmend.optimise.floors.region import Region
+from hexmend.optimise.floors.movable_hexes import Region
 from tests.core.boundary.solids import cylinder
 from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid, scrambled

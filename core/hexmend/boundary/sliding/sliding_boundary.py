@@ -18,8 +18,7 @@ from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_c
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
 from hexmend.boundary.marking import marked_segments
 from hexmend.boundary.skin_surface import MAX_TARGET_DISTANCE, SkinSurface
-from hexmend.boundary.sliding.curved_faces import surface_of_boundary
-from hexmend.boundary.sliding.flat_parts import flat_motion, flat_parts
+from hexmend.boundary.sliding.curved_faces import flat_motion, flat_parts, surface_of_boundary
 from hexmend.boundary.sliding.sliding_nodes import SlidingNodes
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.boundary.tolerances import FLAT_DISTANCE

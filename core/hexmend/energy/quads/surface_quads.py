@@ -19,9 +19,8 @@ from hexmend.boundary.normals import directions_of_means
 from hexmend.boundary.sliding.sliding_boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.element_blocks import ElementBlocks
-from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
+from hexmend.energy.norm import DeltaPolicy, ObjectiveNorm, SurfaceObjective
 from hexmend.energy.quads.quad_energy import QuadCorners, power_derivatives
-from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
 from hexmend.kernels import sliding_surface
 from hexmend.mesh.hexahedron import UNIT_CUBE

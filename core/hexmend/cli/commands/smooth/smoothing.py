@@ -22,7 +22,7 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
-from hexmend.io.surfaces.curve_file import with_curves_of_file
+from hexmend.io.surfaces.read import with_curves_of_file
 from hexmend.iteration import Iteration, Result
 from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.mesh import Mesh

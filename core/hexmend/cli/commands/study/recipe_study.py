@@ -13,8 +13,7 @@ from hexmend import __version__
 from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
-from hexmend.report.documents import output_folder
+from hexmend.report.documents import cases_table, failures, output_folder, write_batch_study, write_parquet
 from hexmend.run.progress import line_display
 from hexmend.study.batch.cluster import check_installed, cluster_answers
 from hexmend.study.batch.plan import find_meshes, read_plan

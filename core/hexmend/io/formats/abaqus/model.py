@@ -30,11 +30,6 @@ def name_key(name: str) -> str:
     return name[1:-1] if len(name) > 1 and name[0] == name[-1] == '"' else name.upper()
 
 
-def unquoted(name: str) -> str:
-    """Name without the quotes around it."""
-    return name.strip().strip('"')
-
-
 @dataclass(eq=False)
 class SetDefinition:
     """Data lines of a set, whose members are looked up once everything is read.

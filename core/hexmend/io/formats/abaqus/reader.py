@@ -17,8 +17,7 @@ from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
 from hexmend.io.formats.abaqus.content import to_mesh
-from hexmend.io.formats.abaqus.deck import Card, Deck
-from hexmend.io.formats.abaqus.includes import read_deck
+from hexmend.io.formats.abaqus.deck import Card, Deck, read_deck, unquoted
 from hexmend.io.formats.abaqus.model import (
     ElementCard,
     Instance,
@@ -27,7 +26,6 @@ from hexmend.io.formats.abaqus.model import (
     merged,
     name_key,
     placement,
-    unquoted,
 )
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.mesh.mesh import Mesh
