@@ -57,9 +57,9 @@ from hexmend.smoothers.global_.descent import GlobalNewtonRaphson as GlobalNewto
 from hexmend.smoothers.global_.descent import GlobalSteepestDescent as GlobalSteepestDescent
 from hexmend.smoothers.laplacian.laplacian import Laplacian as Laplacian
 from hexmend.smoothers.laplacian.laplacian import SmartLaplacian as SmartLaplacian
-from hexmend.smoothers.local.patch import LocalPatch as LocalPatch
 from hexmend.smoothers.local.single_node import LocalModifiedNewton as LocalModifiedNewton
 from hexmend.smoothers.local.single_node import LocalNewtonRaphson as LocalNewtonRaphson
+from hexmend.smoothers.local.single_node import LocalPatch as LocalPatch
 from hexmend.smoothers.local.single_node import LocalSteepestDescent as LocalSteepestDescent
 from hexmend.smoothers.mend.mend import Mend as Mend
 from hexmend.study.compare import Comparison as Comparison

@@ -13,9 +13,8 @@ import pytest
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.storage import parallel_map as maps
-from hexmend.io.storage.binary_rows import FileBytes, read_blocks, read_rows
-from hexmend.io.storage.parallel_map import parallel_map
+from hexmend.io.storage import binary_rows as maps
+from hexmend.io.storage.binary_rows import FileBytes, parallel_map, read_blocks, read_rows
 from hexmend.io.storage.subprocess_reader import run_reader
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.io.storage.toml_files import read_toml, write_toml

@@ -13,8 +13,8 @@ import numpy as np
 
 from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import is_number, quoted
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import lookup
+from hexmend.io.base.remedies import MemoryBudget
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
 

@@ -22,9 +22,8 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.hdf5 import text_of
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import check_numbers
-from hexmend.io.base.remedies import DAMAGED, some_names, unread_note
+from hexmend.io.base.remedies import DAMAGED, MemoryBudget, some_names, unread_note
 
 #: Kind of cell of each geometric type that is read.
 KIND_OF_TYPE = {
