@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.arrays import bounds, mask, row_norms
-from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
+from hexmend.boundary.closest_point import ClosestPoints, NearPoints, means, vertices_of
 from hexmend.boundary.edges import SurfaceEdges
-from hexmend.boundary.near_points import NearPoints
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.boundary.tolerances import ROUNDING
 from hexmend.kernels import closest_point

@@ -15,8 +15,7 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import centres
 from hexmend.quality import ElementQuality
-from hexmend.target.edge_lengths import given_lengths
-from hexmend.target.sheets import recovered_lengths
+from hexmend.target.sheets import given_lengths, recovered_lengths
 
 #: Targets that are no fields: name and meaning.
 SPECIFICATIONS = {

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.element_blocks import ElementBlocks
+from hexmend.energy.terms import ElementBlocks
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.solid_cells import corner_tetrahedra, rows_by_kind
 
