@@ -15,7 +15,7 @@ from benchmarks.section import BenchSection
 from hexmend.boundary.closest_point import triangulate
 from hexmend.gallery import make
 from hexmend.io import read, write
-from hexmend.io.surfaces.stl import TRIANGLE
+from hexmend.io.surfaces.formats import TRIANGLE
 
 #: Files in the folder of HEXMEND_MESHES; one of the gallery is measured where it has none of them.
 _FILES = "rockerarm_2.mesh", "pierrot_32735.mesh"

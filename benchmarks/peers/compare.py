@@ -20,9 +20,9 @@ from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, objective, summarise
-from hexmend.report.batch import machine_words
+from hexmend.report.documents import machine_words
 from hexmend.report.markdown import escape, markdown
-from hexmend.study.batch.mesh_files import find_meshes
+from hexmend.study.batch.plan import find_meshes
 from hexmend.study.machine import machine
 
 #: Marks in a page of Markdown between which the tables are written.

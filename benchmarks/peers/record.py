@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from benchmarks.peers.peer import Peer
-from hexmend.report.batch import mesh_names
+from hexmend.report.documents import mesh_names
 
 #: Figures of a mesh as given, in the rows of all programs, with the key that a result has.
 _GIVEN = ("inverted", "locked_inverted", "invalid", "q_min", "q_mean", "scaled_jacobian_min", "objective_p1")

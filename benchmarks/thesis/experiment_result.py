@@ -12,7 +12,7 @@ from hexmend.iteration import Outcome
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary
 from hexmend.smoothers import METHODS
-from hexmend.study.table_row import Row, common_norm, initial_record
+from hexmend.study.compare import Row, common_norm, initial_record
 
 #: Objectives of one optimum differ by less than this share, because of the tolerance of A.1.
 SAME_OBJECTIVE = 1e-3

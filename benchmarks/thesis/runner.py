@@ -16,7 +16,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import Smoother
-from hexmend.study.table_row import Row, run_one
+from hexmend.study.compare import Row, run_one
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,12 +14,9 @@ FACE = Path(hx.__file__)
 
 
 def names_for_type_checkers():
-    """Return the name and the module of each import that the package has for type checkers alone."""
-    (block,) = (
-        node for node in ast.parse(FACE.read_text("utf-8")).body
-        if isinstance(node, ast.If) and isinstance(node.test, ast.Name)
-    )  # fmt: skip
-    return {alias.asname or alias.name: node.module for node in block.body for alias in node.names}
+    """Return the name and the module of each import that the package declares in its stub."""
+    imports = [node for node in ast.parse(FACE.with_suffix(".pyi").read_text("utf-8")).body if hasattr(node, "names")]
+    return {alias.asname: node.module for node in imports for alias in node.names}
 
 
 def test_the_package_is_marked_as_typed():

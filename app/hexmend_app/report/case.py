@@ -21,7 +21,7 @@ from hexmend.run import Run
 from hexmend.run.recipe import Recipe
 from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import Smoother
-from hexmend.study.table_row import Row, Watch, common_norm, initial_record, run_one
+from hexmend.study.compare import Row, Watch, common_norm, initial_record, run_one
 from hexmend.terminal_text import printable
 
 #: Name of the original mesh.

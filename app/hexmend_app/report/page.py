@@ -18,8 +18,8 @@ from hexmend.quality.regressions import describe_regressions
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.tables import Table
 from hexmend.solver_checks import SOLVERS, Report, check_mesh
+from hexmend.study.compare import Row
 from hexmend.study.machine import machine
-from hexmend.study.table_row import Row
 from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report.case import Case, Version
 from hexmend_app.report.figure_set import PARTS, Figure, Style, table_of, write_figures

@@ -17,7 +17,7 @@ from benchmarks.thesis.claims.queries import (
 from benchmarks.thesis.experiment_result import ExperimentResult
 from benchmarks.thesis.experiments import INITIAL
 from hexmend.iteration import Outcome
-from hexmend.study.table_row import Row
+from hexmend.study.compare import Row
 
 _LOCAL = "local-sd", "local-nr"
 

@@ -9,7 +9,7 @@ from benchmarks.thesis.claims.claim import Finding, claim, tally
 from benchmarks.thesis.claims.queries import ending, of_mesh, reached_optimum, with_rows
 from benchmarks.thesis.experiment_result import ExperimentResult
 from benchmarks.thesis.experiments import INITIAL
-from hexmend.study.table_row import Row
+from hexmend.study.compare import Row
 
 #: From this delta on the optimum may differ (4.2.1); such runs are not compared.
 _LARGE = 0.1

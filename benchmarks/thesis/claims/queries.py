@@ -11,7 +11,7 @@ from benchmarks.thesis.experiment_result import SAME_OBJECTIVE, ExperimentResult
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome
 from hexmend.smoothers import METHODS
-from hexmend.study.table_row import Row
+from hexmend.study.compare import Row
 
 #: "Far less time" and "slow": at least this factor.
 MUCH_SLOWER = 5.0

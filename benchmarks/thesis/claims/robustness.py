@@ -16,7 +16,7 @@ from benchmarks.thesis.claims.queries import (
     title,
 )
 from benchmarks.thesis.experiment_result import ExperimentResult
-from hexmend.study.table_row import Row
+from hexmend.study.compare import Row
 
 #: "Several": at least this many.
 _SEVERAL = 2

@@ -13,7 +13,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.study.table_row import Row, run_one
+from hexmend.study.compare import Row, run_one
 
 #: A run is near the optimum when its objective exceeds that of the optimum by less than this share.
 NEAR = 1e-3

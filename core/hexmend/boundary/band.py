@@ -1,4 +1,9 @@
-"""The band around a surface in which a boundary that slides on it stays."""
+"""The band around a surface in which a boundary that slides on it stays.
+
+Samples of a boundary: edge midpoints, face centres and nodes.
+
+Points of the cells of a lattice with the largest and the least value.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,64 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hexmend.arrays import mask, row_norms
-from hexmend.boundary.boundary_samples import samples_of_faces
-from hexmend.boundary.cell_extremes import extremes_in_cells
-from hexmend.boundary.closest_point import ClosestPoints, means, vertices_of
-from hexmend.boundary.near_points import NearPoints
+from hexmend.arrays import bounds, mask, row_norms
+from hexmend.boundary.closest_point import ClosestPoints, NearPoints, means, vertices_of
+from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.skin_surface import SAMPLE_DISTANCE, SkinSurface
 from hexmend.boundary.tolerances import ROUNDING
 from hexmend.kernels import closest_point
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.components import any_of_rows
+
+
+def extremes_in_cells(x: np.ndarray, distances: np.ndarray, cell: float) -> np.ndarray:
+    """Find the points with the largest and with the least distance in each cell of a cubic lattice.
+
+    Parameters
+    ----------
+    x : (k, 3) float64
+    distances : (k,) float64
+    cell : float
+        Edge of a cell.
+
+    Returns
+    -------
+    (j,) int64
+        Numbers of these points, ascending.
+
+    Examples
+    --------
+    >>> x = np.array([[0.1, 0, 0], [0.2, 0, 0], [0.3, 0, 0], [1.5, 0, 0]])
+    >>> extremes_in_cells(x, np.array([1.0, 2.0, 3.0, 0.0]), 1.0).tolist()
+    [0, 2, 3]
+    """
+    if not len(x):
+        return np.empty(0, dtype=np.int64)
+    place = np.floor((x - bounds(x)[0]) / cell)
+    order = np.lexsort((distances, *place.T))
+    first = np.append(True, (np.diff(place[order], axis=0) != 0).any(axis=1))
+    return np.unique(order[first | np.roll(first, -1)])
+
+
+def samples_of_faces(faces: np.ndarray, n: int, edges: np.ndarray | None = None) -> np.ndarray:
+    """Return the samples of quads: midpoints of edges (with each node twice) and of faces, then the nodes themselves.
+
+    Parameters
+    ----------
+    faces : (k, 4) int32
+    n : int
+        Number of nodes of the mesh.
+    edges : (e, 2) int32, optional
+        Edges of the faces, where they are known already.
+
+    Returns
+    -------
+    (s, 4) int32
+        Four nodes whose mean each sample is.
+    """
+    edges = SurfaceEdges(faces, n).nodes if edges is None else edges
+    nodes = np.tile(np.flatnonzero(mask(faces, n))[:, None], 4)
+    return np.ascontiguousarray(np.concatenate([np.tile(edges, 2), faces, nodes]), dtype=np.int32)
+
 
 NO_NODES = np.empty(0, dtype=np.int64)
 

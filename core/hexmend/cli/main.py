@@ -128,7 +128,7 @@ def _core_commands() -> dict[str, Callable[[], Command]]:
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:
-    from hexmend.cli.arguments.parser import Parser
+    from hexmend.cli.arguments.options import Parser
     from hexmend.errors import FileError, HexmendError, InsufficientMemoryError, MeshError
 
     try:

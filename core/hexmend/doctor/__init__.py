@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.doctor import cells, connection, mid_nodes, nodes, winding  # noqa: F401  (they register themselves)
+from hexmend.doctor import connection, mid_nodes, nodes  # noqa: F401  (they register themselves)
 from hexmend.doctor.problem import PROBLEMS, Finding, Problem
 from hexmend.mesh.mesh import Mesh
 

@@ -10,7 +10,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
 from hexmend.mesh.second_order.raised_mid_nodes import are_low, raised_mid_nodes
-from hexmend.optimise.blas_threads import one_blas_thread
+from hexmend.optimise.linear_solvers import one_blas_thread
 from hexmend.quality import corner_determinants
 from hexmend.quality.validity import Validity, certify
 from hexmend.terminal_text import count_phrase

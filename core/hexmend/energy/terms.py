@@ -1,4 +1,7 @@
-"""Terms that are added to the energy of the hexes."""
+"""Terms that are added to the energy of the hexes.
+
+Addition of second derivatives of some elements, quads or hexes, to assembled Hessians.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,63 @@ from typing import Protocol
 
 import numpy as np
 
+from hexmend.arrays import index_of
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.norm import ObjectiveNorm
+from hexmend.energy.sparsity import BlockSparsity
+
+#: Places of xx xy xz yy yz zz in a matrix of 3 rows.
+UPPER = [0, 1, 2, 4, 5, 8]
+
+
+class ElementBlocks:
+    """Places of pairs of an element's nodes in assembled Hessians; they are found once for each sparsity pattern.
+
+    Parameters
+    ----------
+    elements : (f, w) int32
+        Nodes of each element.
+    """
+
+    def __init__(self, elements: np.ndarray):
+        self._elements, self._known = elements, None
+
+    def add(self, pairs: np.ndarray, matrix: AssembledHessian) -> None:
+        """Add second derivatives by pairs of nodes of each element, (f, w, w, 3, 3), to a matrix."""
+        own, corner, slot, element, row, column, block = self._of(matrix.sparsity)
+        diagonal = pairs[own, corner, corner].reshape(-1, 9)[:, UPPER]
+        np.add.at(matrix.diagonal, slot, diagonal.astype(matrix.diagonal.dtype))
+        above = pairs[element, row, column].reshape(-1, 9)
+        np.add.at(matrix.off_diagonal, block, above.astype(matrix.dtype))
+
+    def _of(self, sparsity: BlockSparsity) -> tuple[np.ndarray, ...]:
+        """Find the places in matrices of a sparsity pattern.
+
+        Returns
+        -------
+        element, corner, slot : (d,) int
+            Corners with a free node, and its slot.
+        element, row, column, block : (b,) int
+            Pairs of corners with free nodes, and the block above the diagonal to which their second derivatives belong:
+            that of the corner `row` comes first.
+        """
+        known = self._known
+        if known is not None and known[0] is sparsity:
+            return known[1]
+        width = self._elements.shape[1]
+        slots = index_of(sparsity.nodes, int(max(sparsity.nodes.max(initial=-1), self._elements.max(initial=-1))) + 1)
+        slots = slots[self._elements].astype(np.int64)
+        count = sparsity.nodes.size
+        rows = np.repeat(np.arange(len(sparsity.row_start) - 1, dtype=np.int64), np.diff(sparsity.row_start))
+        keys = rows * count + sparsity.columns  # ascending
+        row, column = (corner.ravel() for corner in np.indices((width, width)))
+        first, second = slots[:, row], slots[:, column]
+        element, pair = np.nonzero((first >= 0) & (first < second))
+        block = np.searchsorted(keys, first[element, pair] * count + second[element, pair])
+        free = np.nonzero(slots >= 0)
+        places = (*free, slots[free], element, row[pair], column[pair], block)
+        self._known = sparsity, places
+        return places
 
 
 class Term(Protocol):

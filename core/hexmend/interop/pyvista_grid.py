@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import convert_to_mesh, import_library, with_side_marks
+from hexmend.interop.meshio_mesh import convert_to_mesh, import_library, with_side_marks
 from hexmend.io.formats.vtk.grid import Grid, from_mesh, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh

@@ -1,8 +1,12 @@
-"""Lookup of the format of a file, by its place, suffix and content, among ours and those of other distributions."""
+"""Lookup of the format of a file, by its place, suffix and content, among ours and those of other distributions.
+
+Files that no format reads, recognised by how they begin, and the way to a file that can be read.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 from codecs import BOM_UTF8
 from collections.abc import Iterable, Iterator
 from functools import cache
@@ -12,7 +16,6 @@ from typing import NoReturn
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.foreign_files import check_not_foreign
 from hexmend.registry import load_entry_points
 
 #: Entry-point group of the formats of other distributions; its entries name a `Format`.
@@ -151,3 +154,50 @@ def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
     known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
     problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
     raise FileError(path, problem, f"Hexmend can {verb} {known}.")
+
+
+#: How a file begins, what it is, and what to do.
+_KINDS = (
+    (rb"version https://git-lfs", "is a pointer of Git LFS, not the file itself", "Fetch it: git lfs pull."),
+    (
+        rb"MFEM (?:NC )?mesh|MFEM NURBS|MFEM INLINE",
+        "is a mesh of MFEM",
+        "Open it in MFEM's mesh-explorer and save it as VTK (key V).",
+    ),
+    (
+        rb"\s*\(\s*(?:0|1|2|10|12|13|39|45)\s",
+        "is a mesh of Fluent",
+        "Convert it with OpenFOAM's fluent3DMeshToFoam, and open the case.",
+    ),
+    (rb"# Created by COMSOL", "is a mesh of COMSOL", "Export it from COMSOL as NASTRAN (.nas)."),
+    (
+        rb"(?:libMesh-|DEAL |LIBM |MESH )",
+        "is a mesh of libMesh",
+        "Convert it with libMesh: meshtool-opt -i MESH.xda -o MESH.e.",
+    ),
+    (
+        rb"\s+-1\s+(?:151|15|164|2411|2420|780)\b",
+        "is a universal file (UNV)",
+        "Convert it with Gmsh: gmsh MESH.unv -save -o MESH.msh.",
+    ),
+    (rb"#RADIOSS STARTER", "is a deck of Radioss", "Export it from HyperMesh as Nastran or LS-DYNA."),
+    (
+        rb"\s*(?:<\?xml[^>]*>\s*)?<febio_spec",
+        "is a deck of FEBio",
+        "Export the mesh from FEBio Studio as VTK or LS-DYNA (.k).",
+    ),
+)
+
+
+def check_not_foreign(path: Path, head: bytes) -> None:
+    """Raise `FileError` for a file of a kind that is known and not read; it says what it is, and what to do.
+
+    Parameters
+    ----------
+    path : Path
+    head : bytes
+        First bytes of the file.
+    """
+    for pattern, kind, remedy in _KINDS:
+        if re.match(pattern, head):
+            raise FileError(path, kind, remedy)

@@ -17,8 +17,7 @@ from hexmend.layers.walls import Layers, Wall
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
-from hexmend.target.edge_lengths import given_lengths
-from hexmend.target.sheets import DISTORTED, recovered_lengths
+from hexmend.target.sheets import DISTORTED, given_lengths, recovered_lengths
 from hexmend.terminal_text import capitalised, count_phrase
 
 #: Factor by which heights of the first layer may change in the mean before the layers count as lost.

@@ -13,8 +13,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE
 from hexmend.boundary.sliding import SlidingBoundary
-from hexmend.locking.locked_corners import LockedCorner, find_locked_corners
-from hexmend.locking.visibility import nodes_without_space
+from hexmend.locking.locked_corners import LockedCorner, find_locked_corners, nodes_without_space
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes, measure
 from hexmend.quality.file_ids import name_cells, node_ids, with_ids

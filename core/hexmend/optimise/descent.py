@@ -11,7 +11,7 @@ from hexmend.energy import Hessian, MeshEnergy
 from hexmend.energy.ranks import ONE_RANK, Ranks
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.components import any_of_rows
 from hexmend.optimise.search_direction import (
     NEGLIGIBLE,
     DampedDirection,

@@ -9,8 +9,7 @@ import numpy as np
 
 from hexmend.energy import Hessian
 from hexmend.energy.assembled_hessian import AssembledHessian, CGResult, unpack_symmetric
-from hexmend.optimise.blas_threads import one_blas_thread
-from hexmend.optimise.linear_solvers import LinearSolver
+from hexmend.optimise.linear_solvers import LinearSolver, one_blas_thread
 
 #: Share of the greatest eigenvalue to which lower ones are raised: a thousandth, by Algorithm A.4.
 LEAST_EIGENVALUE = 1e-3

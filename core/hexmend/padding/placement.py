@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.normals import unit_vectors
-from hexmend.locking.visibility import inward_direction
+from hexmend.locking.locked_corners import inward_direction
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.materials import Materials
 from hexmend.padding.inserted_layer import Sheet

@@ -1,7 +1,11 @@
-"""Ranks of an MPI program: sums over all of them, and rows of nodes that they send to their neighbours."""
+"""Ranks of an MPI program: sums over all of them, and rows of nodes that they send to their neighbours.
+
+Variables of the launchers of MPI.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -93,3 +97,12 @@ class MPIRanks(Ranks):
         self._mpi.Request.Waitall(requests)
         for rank, buffer in arriving.items():
             rows[received[rank]] = buffer
+
+
+#: Variables in which launchers tell each process the number of processes on its machine.
+_LOCAL_SIZES = "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"
+
+
+def local_ranks() -> int:
+    """Return the number of ranks on this machine, as the launcher of this process says; 1 without one."""
+    return next((int(os.environ[name]) for name in _LOCAL_SIZES if os.environ.get(name, "").isdecimal()), 1)

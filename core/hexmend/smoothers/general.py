@@ -16,9 +16,9 @@ from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.parameters import parameter
 from hexmend.quality import measure, measure_against_target
 from hexmend.smoothers.base import METHODS, Steps, method
+from hexmend.smoothers.base_optimiser import TargetedSmoother
 from hexmend.smoothers.constrained_steps import constrained_steps
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
-from hexmend.smoothers.targeted_smoother import TargetedSmoother
 from hexmend.terminal_text import count_phrase
 
 

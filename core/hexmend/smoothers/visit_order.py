@@ -13,7 +13,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
-from hexmend.quality import measure
+from hexmend.quality.measure import measure
 
 #: Function of the points (n, 3) at the beginning of a sweep and of its number, from 0, that gives the free nodes in the
 #: order of the sweep, (k,) int32.

@@ -9,7 +9,7 @@ from hexmend import METHODS, Cells, Mesh, StoppingCriteria, read, smooth, write
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of, classify
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.feature_edges.corner_detection import bend_corners
-from hexmend.boundary.feature_edges.prominence import surrounding_angles
+from hexmend.boundary.feature_edges.features import surrounding_angles
 from hexmend.boundary.sliding.curved_faces import surface_of_boundary
 from hexmend.gallery import GALLERY, make
 from hexmend.mesh.second_order import MID_EDGES

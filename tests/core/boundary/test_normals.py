@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary, boundary_of
 from hexmend.boundary.normals import curve_tangents, directions_of_means, segment_tangents, unit_vectors, vertex_normals
-from hexmend.boundary.sliding.quad_normals import QuadNormals
+from hexmend.energy.quads.surface_quads import QuadNormals
 from hexmend.gallery import make
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid

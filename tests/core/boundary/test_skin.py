@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.boundary import ClosestPointTrees, SkinSurface
 from hexmend.boundary.band import Band
-from hexmend.boundary.near_points import NearPoints
+from hexmend.boundary.closest_point import NearPoints
 from hexmend.boundary.skin_faces import skin_faces
 from tests.core.grids import grid
 

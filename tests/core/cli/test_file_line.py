@@ -1,4 +1,7 @@
-"""The line of a file that takes long: on a terminal alone, and gone before anything else is printed."""
+"""The line of a file that takes long: on a terminal alone, and gone before anything else is printed.
+
+Progress: quiet where there is nothing to say, on standard error only, and Ctrl-C loses nothing.
+"""
 
 import os
 import re
@@ -9,8 +12,11 @@ from pathlib import Path
 import pytest
 
 from hexmend import gallery, io
+from hexmend.cli.main import main
 from hexmend.cli.output.file_line import FileLine
+from hexmend.cli.output.progress import follow
 from hexmend.io.storage.file_progress import FileAction, FileProgress
+from hexmend.run import StoppingCriteria, iterate, progress
 
 pty = pytest.importorskip("pty")
 
@@ -94,3 +100,32 @@ def test_a_terminal_that_has_gone_does_not_end_the_reading(monkeypatch):
     line.show(FileProgress(Path("a"), FileAction.READING, 0.1, 0.2))
     line.show(FileProgress(Path("a"), FileAction.READING, 1.0, 4.0, ended=True))
     assert len(shown) == 2
+
+
+def test_a_short_run_says_nothing_on_standard_error(mesh, tmp_path, run_command):
+    assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.vtu"), "--method", "laplacian"]) == 0
+    assert run_command("compare", mesh, "-o", tmp_path / "tables", "--methods", "laplacian").err == ""
+
+
+def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(mesh, tmp_path, run_command, monkeypatch):
+    monkeypatch.setattr(progress, "LINE_INTERVAL", 0.0)
+    words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian", "--max-iterations", "3"]
+    said = run_command(*words, "--tolerance", "0")
+    assert [line.split(",")[0] for line in said.err.splitlines()] == [
+        f"laplacian: iteration {k} of at most 3" for k in (1, 2, 3)
+    ]
+    assert "of at most" not in said.out
+
+
+def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(progress, "BAR_DELAY", 0.0)
+    run = iterate(
+        gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
+    )
+    follow(run)
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "laplacian" in said.err
+    assert "\x1b[2K" in said.err  # the line is erased

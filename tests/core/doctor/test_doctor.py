@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hexmend import Cells, LinearMotion, Mesh, io, measure
 from hexmend.cli.main import main
 from hexmend.doctor import PROBLEMS, Finding, examine, repair
-from hexmend.doctor.removal import extract_hexes, renumber_nodes
+from hexmend.doctor.nodes import extract_hexes, renumber_nodes
 from hexmend.mesh.collapsed_hexes import with_collapsed_converted
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE, VOXEL_ORDER
 from hexmend.mesh.materials import CONTACT_CARDS

@@ -11,7 +11,7 @@ from hexmend.energy.quads import SurfaceQuads
 from hexmend.energy.quads.quad_energy import QuadCorners
 from tests.core.boundary.solids import slid
 from tests.core.energy.projected import projected_energy
-from tests.core.energy.test_sliding_energy import SOLIDS, along_the_surface
+from tests.core.energy.test_linear_motion_energy import SOLIDS, along_the_surface
 from tests.core.grids import grid
 
 SQUARE = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]], dtype=float)

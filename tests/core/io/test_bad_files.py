@@ -1,17 +1,26 @@
-"""Bad files: one clear error that names file, place and remedy; whatever is cut or flipped, never another failure."""
+"""Bad files: one clear error that names file, place and remedy; whatever is cut or flipped, never another failure.
+
+Some spoilt files of every format; `scripts/fuzz_readers.py` reads thousands, and larger ones.
+
+Memory while reading: little more than the arrays of the mesh, for each large format.
+"""
 
 import bz2
 import gzip
 import lzma
 import os
+import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hexmend import FileError, io
-from hexmend.io import FORMATS
+from hexmend.gallery import make
+from hexmend.io import FORMATS, read, write
 from hexmend.io.storage.atomic import atomic_write
 from tests.core.grids import grid, scrambled
+from tests.programs import run_python
 
 
 def test_a_missing_file_is_said_with_its_nearest(tmp_path):
@@ -64,3 +73,51 @@ def test_compressed_files_are_called_compressed_whatever_their_names(name, tmp_p
         (tmp_path / name).write_bytes(compress(b"anything"))
         with pytest.raises(FileError, match=f"is compressed by {program}. Decompress it first."):
             io.read(tmp_path / name)
+
+
+pytestmark = pytest.mark.slow
+
+SCRIPT = Path(__file__).resolve().parents[3] / "scripts/fuzz_readers.py"
+
+#: Formats of which each file is read in a process of its own, which takes its time.
+APART = ["med", "vtkhdf"]
+
+
+@pytest.mark.parametrize(("names", "cases"), [
+    ([*(name for name in FORMATS if name not in APART), "session"], 50), (APART, 4),
+], ids=["here", "apart"])  # fmt: skip
+def test_a_spoilt_file_gives_a_mesh_or_one_clear_error(names, cases):
+    words = ["--cases", str(cases), "--seed", "7", "--meshes", str(Path(__file__).with_name("files")), *names]
+    done = run_python(SCRIPT, *words)
+    assert done.returncode == 0, done.stderr
+    assert all(f"{name} " in done.stdout for name in names)
+
+
+#: Arrays of the mesh that reading may take, and bytes of blocks that are read at a time besides.
+ARRAYS, BLOCKS = 2.5, 2 << 20
+SIZE = 120_000
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return make("five-side", size=SIZE, scramble=0.3)
+
+
+def peak_of_reading(path):
+    """Peak of the memory of this process in reading a file, bytes, and the mesh."""
+    tracemalloc.start()
+    try:
+        mesh = read(path)
+        return tracemalloc.get_traced_memory()[1], mesh
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("suffix", [".vtu", ".vtkhdf", ".vtk", ".meshb", ".msh", ".exo"])
+def test_a_binary_file_takes_two_and_a_half_times_the_arrays_of_its_mesh_at_most(mesh, tmp_path, suffix):
+    write(tmp_path / f"mesh{suffix}", mesh)
+    peak, found = peak_of_reading(tmp_path / f"mesh{suffix}")
+    arrays = found.points.nbytes + found.hexes.nbytes
+    assert (found.hexes == mesh.hexes).all()
+    assert (found.points == mesh.points).all()
+    assert peak < ARRAYS * arrays + BLOCKS, f"{peak / arrays:.1f} times its arrays"

@@ -16,8 +16,7 @@ from hexmend.kernels import LANES, element_step, laplacian, local, objective, st
 from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.target.edge_lengths import edge_numbers
-from hexmend.target.sheets import Sheets
+from hexmend.target.sheets import Sheets, edge_numbers
 from tests.core.grids import grid, scrambled
 from tests.core.native import extension
 from tests.core.threads import by_threads

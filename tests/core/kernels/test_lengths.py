@@ -1,4 +1,7 @@
-"""Kernels check the lengths of their arrays: an array that is too short would be read or written beyond its end."""
+"""Kernels check the lengths of their arrays: an array that is too short would be read or written beyond its end.
+
+The back line search, trial by trial.
+"""
 
 from typing import Any
 
@@ -6,6 +9,7 @@ import numpy as np
 import pytest
 
 from hexmend.kernels import closest_point, decimals, incidence, occlusion
+from hexmend.kernels.line_search import LineSearch
 from tests.core.kernels.arguments import arguments
 from tests.core.kernels.arguments.rows import Row, common, of_another_mesh
 from tests.core.kernels.arguments.signatures import KERNELS, Overload
@@ -88,3 +92,22 @@ def test_links_of_trees_that_lead_back_are_refused():
     found = np.full(1, -1, np.int32), np.zeros((1, 3)), np.zeros((1, 3))
     with pytest.raises(ValueError, match="links: "):
         closest_point.closest(trees, points, np.zeros(1, np.int32), 0.0, *found)
+
+
+@pytest.mark.parametrize("cuts", [0, 1, 5])
+def test_a_search_tries_the_first_step_and_one_more_for_each_cut(cuts):
+    tried = []
+
+    def along(alpha):
+        tried.append(alpha)
+        return 1.0
+
+    assert LineSearch(initial_step=2.0, backtrack_factor=0.5, max_backtracks=cuts)(along, 0.5, -1.0) == (0.0, cuts)
+    assert tried == [2.0 * 0.5**cut for cut in range(cuts + 1)]
+
+
+def test_a_step_that_descends_less_than_armijo_asks_is_not_accepted():
+    search = LineSearch(initial_step=1.0, backtrack_factor=0.5, c1=0.1, max_backtracks=10)
+    values = {1.0: 0.95, 0.5: 0.96, 0.25: 0.97}  # from 1 with slope -1: at most 0.9, 0.95 and 0.975 are enough
+    assert search(values.__getitem__, 1.0, -1.0) == (0.25, 2)
+    assert search(lambda alpha: 1.0 - 0.1 * alpha, 1.0, -1.0)[0] == 0.0  # exactly the bound is not enough

@@ -13,7 +13,7 @@ import hexmend as hx
 from hexmend import Mesh, io, measure, smooth
 from hexmend.doctor import PROBLEMS
 from hexmend.locking import Reason, find_locking, hexes_without_valid_position, nodes_without_valid_position
-from hexmend.locking.visibility import inward_direction
+from hexmend.locking.locked_corners import inward_direction
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import grid, scrambled

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.energy.norm import ObjectiveNorm
-from hexmend.energy.quads.surface_term import SurfaceTerm
+from hexmend.energy.quads.surface_quads import SurfaceTerm
+from hexmend.energy.terms import ElementBlocks
 from hexmend.kernels import LANES
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh import hexahedron

@@ -7,7 +7,7 @@ import pytest
 
 import hexmend as hx
 from hexmend import HexmendError, StoppingCriteria
-from hexmend.notebook.html_tables import of_mesh, of_result
+from hexmend.notebook import of_mesh, of_result
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 

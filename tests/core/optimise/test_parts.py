@@ -1,14 +1,26 @@
-"""The parts that methods are put together from, each on its own."""
+"""The parts that methods are put together from, each on its own.
+
+Minimum residuals against a direct solver, and when they end.
+
+Optimisers end at cubes, however high p is: what is small is not taken for nothing.
+
+Sweeps over nodes with a linear motion: each independent node lowers the energy of the hexes at it and its copies.
+"""
 
 import numpy as np
 import pytest
+from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import AdaptiveDelta, MeshEnergy
+from hexmend.energy import AdaptiveDelta, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
+from hexmend.iteration import Outcome
 from hexmend.kernels.line_search import LineSearch
+from hexmend.mesh.element_target import Target
 from hexmend.optimise import descent
-from hexmend.optimise.linear_solvers import ConjugateGradients, Minres
+from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
+from hexmend.optimise.descent import is_perfect
+from hexmend.optimise.linear_solvers import ConjugateGradients, Minres, minres
 from hexmend.optimise.search_direction import (
     ModifiedNewton,
     Newton,
@@ -18,7 +30,10 @@ from hexmend.optimise.search_direction import (
     steepest_descent,
 )
 from hexmend.quality import measure
+from hexmend.run import smooth
+from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
+from tests.core.linear_motions import CASES, scrambled_within
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -138,3 +153,135 @@ def test_a_spoilt_hex_holds_back_its_own_nodes_alone():
     assert np.count_nonzero(~kept[near]) > 0
     assert not kept[thrown]
     np.testing.assert_allclose(step[thrown] / before[thrown], (step[thrown] / before[thrown])[0])
+
+
+def indefinite(size, seed, condition):
+    """A symmetric matrix of this condition with eigenvalues of both signs, and a right-hand side."""
+    random = np.random.default_rng(seed)
+    q, _ = np.linalg.qr(random.normal(size=(size, size)))
+    return (q * (np.geomspace(1, condition, size) * random.choice([-1, 1], size))) @ q.T, random.normal(size=size)
+
+
+@given(st.integers(2, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e1, 1e3]))
+def test_it_solves_what_has_eigenvalues_of_both_signs(size, seed, condition):
+    matrix, right = indefinite(size, seed, condition)
+    x, _ = minres(matrix.__matmul__, right, 1e-9, 100 * size)
+    np.testing.assert_allclose(matrix @ x, right, atol=1e-7 * np.linalg.norm(right))
+
+
+@given(st.integers(5, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e-1, 1e-3, 1e-6]))
+def test_it_ends_by_the_residual_beside_the_right_hand_side(size, seed, tolerance):
+    matrix, right = indefinite(size, seed, 1e3)
+    goal = tolerance * np.linalg.norm(right)
+
+    def left(x):
+        return np.linalg.norm(right - matrix @ x)
+
+    x, count = minres(matrix.__matmul__, right, tolerance, 1000)
+    assert left(x) <= 1.01 * goal
+    before, _ = minres(matrix.__matmul__, right, tolerance, count - 1)
+    assert count == 1 or left(before) > 0.99 * goal
+
+
+def test_a_newton_direction_is_as_good_as_its_tolerance_says():
+    energy = MeshEnergy(make("bridge-sharp", size=500))
+    x = energy.to_edge_units(energy.mesh.points)
+    hessian, right = energy.hessian(x), -energy.gradient(x).ravel()
+    step, count = Minres(tolerance=1e-6, iterations=10_000)(hessian, right)
+    assert count < 10_000
+    assert np.linalg.norm(right - hessian @ step) == pytest.approx(0, abs=2e-6 * np.linalg.norm(right))
+
+
+@pytest.mark.parametrize("sound", [0, 1, 2])
+def test_the_last_iterate_is_given_where_the_matrix_leaves_the_range_of_numbers(sound):
+    matrix, calls = np.diag([3.0, 2.0, 1.0, 0.5]), []
+
+    def product(x):
+        calls.append(1)
+        return matrix @ x if len(calls) <= sound else np.full(4, np.inf)
+
+    with np.errstate(all="ignore"):
+        x, count = minres(product, np.ones(4), 1e-12, 10)
+    assert count == sound + 1
+    expected, _ = minres(matrix.__matmul__, np.ones(4), 1e-12, sound) if sound else (np.zeros(4), 0)
+    np.testing.assert_array_equal(x, expected)
+
+
+EXPONENTS = [1.0, 2.0, 4.0, 8.0, 16.0]
+
+
+@pytest.mark.parametrize(
+    ("name", "p"),
+    [
+        ("global-nr", 16.0),
+        ("global-mnr", 8.0),
+        ("local-sd", 2.0),
+        ("local-nr", 4.0),
+        ("local-mnr", 16.0),
+        ("mend", 16.0),
+    ],
+)
+def test_optimisers_reach_the_cubes_of_a_scrambled_grid_whatever_p(name, p):
+    result = smooth(make("cube", size=64, scramble=0.4), METHODS[name](p=p), max_iterations=1000)
+    assert result.outcome is Outcome.CONVERGED
+    assert result.after.q_min == pytest.approx(1.0, abs=2e-5)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("p", [*EXPONENTS, 32.0])
+def test_a_mesh_of_cubes_is_perfect_and_one_a_little_away_is_not(p, offset):
+    cubes, other = grid(4), scrambled(grid(4), 0.01)
+    for mesh, answer in ((cubes, True), (other, False)):
+        energy = MeshEnergy(mesh, ObjectiveNorm(p, offset))
+        assert is_perfect(energy, energy.value(energy.to_edge_units(mesh.points)), 0.0) == answer
+
+
+@pytest.mark.parametrize("p", [8.0, 16.0, 32.0])
+def test_a_hessian_below_the_range_of_single_precision_keeps_its_digits(p):
+    mesh = scrambled(grid(4), 0.005)
+    energy = MeshEnergy(mesh, ObjectiveNorm(p))
+    hessian = energy.hessian(energy.to_edge_units(mesh.points))
+    v = np.random.default_rng(0).normal(size=hessian.shape[0])
+    product = hessian @ v
+    size = np.abs(product).max()
+    np.testing.assert_allclose((hessian.assembled() @ v) / size, product / size, atol=1e-5)
+    matrix = hessian.assembled()
+    np.testing.assert_allclose((matrix.matrix() @ v) / size, product / size, atol=1e-5)
+    solved = matrix.solve(product, 1e-6, 500, damping=0.0)
+    if not solved.negative_curvature:
+        np.testing.assert_allclose((hessian @ solved.x) / size, product / size, atol=1e-3)
+
+
+SEARCH = LineSearch(max_backtracks=60)
+
+
+def with_target(mesh, size_weight):
+    lengths = np.random.default_rng(2).uniform(0.5, 1.5, (mesh.n_hexes, 3))
+    return mesh.with_element_target(Target(lengths, size_weight))
+
+
+@pytest.mark.parametrize(
+    ("case", "size_weight", "directions"),
+    [
+        ("planes", None, steepest_descents),
+        ("periodic", 0.0, newton_steps),
+        ("layer", 1.0, steepest_descents),
+        ("wedge", None, newton_steps),
+        ("wedge", 1.0, steepest_descents),
+    ],
+)
+def test_sweeps_lower_the_energy_and_move_only_what_is_chosen(case, size_weight, directions):
+    mesh = scrambled_within(CASES[case](4), 0.2)
+    if size_weight is not None:
+        mesh = with_target(mesh, size_weight)
+    energy = MeshEnergy(mesh, ObjectiveNorm(1.5))
+    motion, x = mesh.linear_motion, energy.to_edge_units(mesh.points)
+    chosen = mesh.free & motion.marks(mesh.n_nodes) & (np.arange(mesh.n_nodes) % 3 > 0)
+    sweeps, values, start = ConstrainedSweeps(energy, chosen), [energy.value(x, 0.01)], x.copy()
+    for _ in range(4):
+        sweeps(x, 0.01, directions, SEARCH)
+        values.append(energy.value(x, 0.01))
+    assert (np.diff(values) < 0).all()
+    moved, roots = (x != start).any(axis=1), motion.roots(mesh.n_nodes)
+    assert not moved[~np.isin(roots, roots[chosen])].any()
+    np.testing.assert_allclose(mesh.constrained(x * energy.unit), x * energy.unit, atol=1e-13)

@@ -195,13 +195,13 @@ def test_an_error_of_rank_0_alone_ends_all(tangled, tmp_path):
 #: Reads no mesh, for lack of memory.
 FAILS = """
 import sys
-from hexmend.cli.commands.smooth import whole_source
+from hexmend.cli.commands.smooth import mesh_sources
 from hexmend.cli.main import main
 
 def read(*args, **options):
     raise MemoryError("no memory")
 
-whole_source.read = read
+mesh_sources.read = read
 sys.exit(main(["smooth", sys.argv[1], "-o", sys.argv[2]]))
 """
 

@@ -10,9 +10,9 @@ from hexmend import METHODS, MotionRules, ParameterError, Recipe, compare, galle
 from hexmend.cli.main import main
 from hexmend.quality import Summary, measure, objective, summarise
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.study import table_row as one_row
+from hexmend.study import compare as one_row
+from hexmend.study.compare import BINS
 from hexmend.study.method_spec import parse_methods
-from hexmend.study.table_row import BINS
 
 #: Keys of each row in comparison.json in addition to the figures of a summary.
 RUN = {

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hexmend import Mesh, ParameterError, gallery, measure
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.target import SPECIFICATIONS, given_lengths, make_target, recovered_lengths
-from hexmend.target.edge_lengths import edge_numbers
-from hexmend.target.formula import FUNCTIONS, evaluate
+from hexmend.target.builders import FUNCTIONS, evaluate
+from hexmend.target.sheets import edge_numbers
 from tests.core.layers.stacks import renumbered, scrambled_in_layers, stack
 
 

@@ -12,7 +12,7 @@ from hexmend.quality import objective, regressions
 from hexmend.report.comparison import LINES, write_comparison
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.study.table_row import common_norm
+from hexmend.study.compare import common_norm
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of

@@ -13,7 +13,7 @@ from hexmend.report.documents import output_folder
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
-from hexmend.study.table_row import Row
+from hexmend.study.compare import Row
 from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import INITIAL, Case, Source, Version, command_line
 from hexmend_app.report.figure_captions import write_captions

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.doctor.removal import extract_hexes
+from hexmend.doctor.nodes import extract_hexes
 from hexmend.errors import FileError, HexmendError
 from hexmend.io import unsupported_data
 from hexmend.io.storage.file_progress import FileProgress

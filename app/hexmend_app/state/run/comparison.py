@@ -20,7 +20,7 @@ from hexmend.run import Run, StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study import compare
-from hexmend.study.table_row import Row, run_one
+from hexmend.study.compare import Row, run_one
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.tasks.task import Task, drop
 

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject
 
 from hexmend.boundary import NodeClass, boundary_of, boundary_with_kept_corners, freed_by_sliding
-from hexmend.boundary.departures import Departures, departures
+from hexmend.boundary.comparison import Departures, departures
 from hexmend.boundary.feature_edges.features import FeatureAngle
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes

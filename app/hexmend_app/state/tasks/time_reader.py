@@ -143,7 +143,7 @@ def case_times(path: Path, state: MeasuredMesh) -> Iterator[Iteration | FileErro
     Iteration or FileError
         Numbers from 1, with the time as seconds; the error of a time that is left out.
     """
-    from hexmend.io.formats.openfoam.moved_points import read_times  # with the reader, which other formats do not need
+    from hexmend.io.formats.openfoam.foam_text import read_times  # with the reader, which other formats do not need
 
     mesh, number, before = state.mesh, 0, state.mesh.points
     for time in read_times(path, mesh.n_nodes):

@@ -1,4 +1,9 @@
-"""A mesh whose boundary nodes slide on a surface, and what of them may leave it."""
+"""A mesh whose boundary nodes slide on a surface, and what of them may leave it.
+
+Nodes of a surface that do not slide on it: the rules of the mesh let them stay, or move freely.
+
+Locked hexes that sliding of the boundary can free.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +18,16 @@ from hexmend.boundary.feature_edges.corner_detection import boundary_with_kept_c
 from hexmend.boundary.feature_edges.features import FEATURE_ANGLE, FeatureAngle, marked_corners, marked_edges
 from hexmend.boundary.marking import marked_segments
 from hexmend.boundary.skin_surface import MAX_TARGET_DISTANCE, SkinSurface
-from hexmend.boundary.sliding.curved_faces import surface_of_boundary
-from hexmend.boundary.sliding.flat_parts import flat_motion
-from hexmend.boundary.sliding.restrictions import fixed_on_surface, freed_by_rules, interface_nodes, moving_with_surface
+from hexmend.boundary.sliding.curved_faces import flat_motion, flat_parts, surface_of_boundary
 from hexmend.boundary.sliding.sliding_nodes import SlidingNodes
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.boundary.tolerances import FLAT_DISTANCE
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.two_dimensional import flat_sides
+from hexmend.mesh.solid_cells import corner_tetrahedra
 from hexmend.mesh.topology import CSR
+from hexmend.quality import corner_determinants
 
 
 class SlidingBoundary(SlidingNodes):
@@ -197,3 +203,101 @@ def _partitioned(target: SkinSurface, feature_angle: FeatureAngle) -> Partitione
         boundary = classify(target.points, target.faces, feature_angle, edges=target.edges)
         known = target.derived[feature_angle] = PartitionedSurface(target.points, boundary, target.trees)
     return known
+
+
+def interface_nodes(mesh: Mesh) -> np.ndarray:
+    """Mark the nodes between materials that are kept or slide, (n,) bool."""
+    materials, free = mesh.interfaces, mesh.node_rules.free
+    if materials is None:
+        return np.zeros(mesh.n_nodes, dtype=bool)
+    return materials.interface_nodes if free is None else materials.interface_nodes & ~free
+
+
+def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
+    """Mark the nodes of the boundary and of interfaces that stay, (n,) bool.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    outer : bool
+        The boundary slides; interfaces that are kept slide with it.
+
+    Returns
+    -------
+    (n,) bool
+    """
+    rules, between = mesh.node_rules, interface_nodes(mesh)
+    boundary = mesh.topology.boundary
+    stays = np.zeros(mesh.n_nodes, dtype=bool) if outer else boundary.copy()
+    slides = rules.interfaces == "slide" or (outer and rules.interfaces == "keep")
+    if mesh.target is not None or not slides:  # a target says nothing about interfaces
+        stays |= between
+    if rules.slides is not None:
+        stays &= ~rules.slides
+    return stays | mesh.immovable | flat_sides(mesh)  # whose nodes move in their planes, or not at all
+
+
+def freed_by_rules(mesh: Mesh) -> np.ndarray:
+    """Find the nodes of the surface that move otherwise than on it: freed ones, and those with a linear motion."""
+    motion, rules = mesh.linear_motion, mesh.node_rules
+    moves = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
+    if rules.free is not None:
+        moves |= rules.free & ~mesh.topology.boundary
+    return np.flatnonzero(moves & ~mesh.fixed)
+
+
+def moving_with_surface(mesh: Mesh, faces: np.ndarray) -> np.ndarray:
+    """Mark the faces of `hexmend.boundary.skin_faces` that stay on the surface: freed nodes take theirs off interfaces.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    faces : (k, 4) int32
+        Those of the boundary first.
+
+    Returns
+    -------
+    (k,) bool
+    """
+    free = mesh.node_rules.free
+    stays = np.ones(len(faces), dtype=bool)
+    first = len(mesh.topology.boundary_faces)
+    if free is not None:
+        stays[first:] = ~free[faces[first:]].any(axis=1)
+    return stays
+
+
+def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: FeatureAngle = FEATURE_ANGLE) -> np.ndarray:
+    """Find locked hexes that may become valid once boundary nodes slide.
+
+    A corner tetrahedron with sigma <= 0 stays inverted if its nodes are all fixed, all lie on one flat patch, or three
+    of them lie on one straight curve: sliding cannot make sigma positive.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    locked : (m,) bool
+        Locked hexes; see `hexmend.quality.locked`.
+    feature_angle : float or "auto"
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+
+    Returns
+    -------
+    (m,) bool
+    """
+    freed, where = locked.copy(), np.flatnonzero(locked)
+    if where.size:
+        freed[where] = ~_stays_inverted(SlidingBoundary(mesh, feature_angle), mesh.points, where)
+    return freed
+
+
+def _stays_inverted(sliding: SlidingBoundary, points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Find those of some hexes (k,) at points (n, 3) that have a corner which stays inverted wherever nodes slide."""
+    mesh = sliding.mesh
+    tetrahedra = corner_tetrahedra(mesh.elements[hexes])  # (k, 8, 4)
+    blocked = mesh.fixed[tetrahedra].all(axis=2)
+    for part in flat_parts(sliding.points, sliding.boundary, mesh.mean_edge_length):
+        most = part.directions.shape[1] + 1  # nodes of a valid tetrahedron on a plane, and on a line
+        blocked |= mask(part.nodes, mesh.n_nodes)[tetrahedra].sum(axis=2) > most
+    inverted = ~(corner_determinants(points, mesh.elements, hexes) > 0)
+    return (blocked & inverted).any(axis=1)

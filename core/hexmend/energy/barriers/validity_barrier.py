@@ -8,8 +8,8 @@ from typing import Self
 import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.element_blocks import ElementBlocks
 from hexmend.energy.norm import ObjectiveNorm
+from hexmend.energy.terms import ElementBlocks
 from hexmend.kernels import validity as kernels
 from hexmend.mesh.hexahedron import UNIT_CUBE
 

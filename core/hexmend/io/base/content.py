@@ -296,6 +296,13 @@ def merge_blocks(blocks: list[Block]) -> Block:
     return Block(blocks[0].kind, nodes, data, concatenate_sets([block.sets for block in blocks], lengths))
 
 
+def merge_other_kinds(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Return the blocks of hexes as they are, and behind them one block for each other kind."""
+    hexes, others = ([one for one in blocks if (one.kind in HEX_KINDS) == is_hex] for is_hex in (True, False))
+    kinds = dict.fromkeys(block.kind for block in others)
+    return (*hexes, *(merge_blocks([block for block in others if block.kind == kind]) for kind in kinds))
+
+
 def unused_name(name: str, taken: Collection[str]) -> str:
     """Append a number from 2 to a name so that it is not taken."""
     return next(title for k in count(2) if (title := f"{name}_{k}") not in taken)

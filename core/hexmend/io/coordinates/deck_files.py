@@ -13,9 +13,9 @@ import numpy as np
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.io.base.cursor import quoted, read_text_bytes
-from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
+from hexmend.io.coordinates.text_coordinates import Edits
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.io.storage.readable import check_readable
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from hexmend.io.base.cursor import read_text_bytes
 from hexmend.io.coordinates import deck_files
 from hexmend.io.coordinates.deck_files import DeckFile, write_files
-from hexmend.io.coordinates.edits import Edits
+from hexmend.io.coordinates.text_coordinates import Edits
 from hexmend.io.storage.atomic import AtomicFiles
 
 _NEWLINE = b"\n"

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base import numbering
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, from_mesh, merge_blocks, node_count, to_mesh
+from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_other_kinds, node_count, to_mesh
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, parse_numbers
 from hexmend.io.base.format import Capability, register
@@ -58,15 +58,10 @@ def read(path: Path) -> Mesh:
         groups = {f"properties {one}": np.flatnonzero(rows[:, 1] == one) for one in np.unique(rows[:, 1]).tolist()}
         groups = groups if len(groups) > 1 or "properties 0" not in groups else {}
         blocks.append(Block(kind, numbering.find_ids(path, ids, rows[:, 2:], "node"), {ID: rows[:, 0].copy()}, groups))
-    merged = [
-        merge_blocks([one for one in blocks if one.kind == kind]) for kind in dict.fromkeys(b.kind for b in blocks)
-    ]
-    merged.sort(key=lambda block: block.kind not in HEX_KINDS)
     del unread["Nodes "]
     notes = (unread_note(f"blocks of other kinds ({some_names(unread)})"),) if unread else ()
-    return to_mesh(
-        path, Content(np.ascontiguousarray(table[:, 1:]), tuple(merged), {ID: ids}, notes=notes, unread=unread)
-    )
+    points = np.ascontiguousarray(table[:, 1:])
+    return to_mesh(path, Content(points, merge_other_kinds(blocks), {ID: ids}, notes=notes, unread=unread))
 
 
 def _rows(path: Path, name: str, body: bytes, width: int) -> np.ndarray:

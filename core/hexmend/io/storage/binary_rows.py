@@ -1,17 +1,22 @@
 """Rows of binary numbers of a file, read block by block, and whole numbers in 32 bits where they fit.
 
 Content of a file that is read into memory piece by piece.
+
+A function over many items in as many threads as the kernels use, for functions that leave Python's lock.
 """
 
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
 from hexmend.io.storage.file_progress import report
+from hexmend.kernels import threads
 
 #: Bytes that are read at a time where a few are asked for, and where a mark is searched.
 _WINDOW, _SEARCHED = 1 << 16, 1 << 22
@@ -207,3 +212,40 @@ def _fits(block: np.ndarray) -> bool:
     if not block.size or np.can_cast(block.dtype, np.int32):
         return True
     return bool(block.max() <= _LIMITS.max and block.min() >= _LIMITS.min)
+
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+
+def parallel_map(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
+    """Yield function(item) of each item in turn; as many are computed at once as the kernels have threads.
+
+    Parameters
+    ----------
+    function : callable
+        Such as one that compresses a block by zlib.
+    items : sequence
+
+    Raises
+    ------
+    Exception
+        That of the first item for which the function raises one.
+
+    Examples
+    --------
+    >>> list(parallel_map(len, ["a", "bb", ""]))
+    [1, 2, 0]
+    """
+    count = threads()
+    if count == 1 or len(items) < 2:
+        yield from map(function, items)
+        return
+    with ThreadPoolExecutor(count) as pool:
+        for begin in range(0, len(items), count):
+            batch = items[begin : begin + count]
+            try:
+                results = pool.map(function, batch)
+            except RuntimeError:  # the system starts no more threads
+                results = map(function, batch)
+            yield from results

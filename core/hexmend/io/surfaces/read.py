@@ -3,6 +3,8 @@
 Merging of the points of a surface whose faces do not share them, such as the triangles of an STL file.
 
 Meshes whose boundary slides on the surface of a file.
+
+Files of curves: chains of nodes as text, one in each line.
 """
 
 from __future__ import annotations
@@ -15,23 +17,66 @@ import numpy as np
 
 from hexmend.arrays import cross_products, extent, mask, row_norms
 from hexmend.boundary import SkinSurface
-from hexmend.errors import FileError
+from hexmend.boundary.marking import with_curve
+from hexmend.errors import FileError, MeshError
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable, reading
-from hexmend.io.surfaces import obj, ply, stl, vtk
-from hexmend.io.surfaces.format import Polygons
+from hexmend.io.surfaces.formats import Polygons, read_legacy, read_obj, read_ply, read_stl, read_vtp
 from hexmend.kernels import closest_point
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology.close_pairs import close_pairs
-from hexmend.mesh.topology.components import components
+from hexmend.mesh.topology.components import close_pairs, components
+
+
+def with_curves_of_file(mesh: Mesh, path: str | os.PathLike[str]) -> Mesh:
+    """Return the mesh with the curves of a file marked; see `with_curve`.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    path : path-like
+        Text with a chain in each line: numbers of nodes, counted from 0, separated by spaces or commas. What follows
+        # is a comment.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FileError
+        For a file that cannot be read, and for the first line that is no chain of boundary edges.
+    """
+    path = Path(path)
+    check_readable(path, "a file of curves")
+    with reading(path, "Choose a text file of node numbers."):
+        lines = path.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines, 1):
+        words = line.partition("#")[0].replace(",", " ").split()
+        if not words:
+            continue
+        try:
+            mesh = with_curve(mesh, _nodes(words))
+        except MeshError as error:
+            raise FileError(path, f"line {number}: {error}", "Correct the line.") from None
+    return mesh
+
+
+def _nodes(words: list[str]) -> list[int]:
+    wrong = next((word for word in words if not word.isdecimal()), None)
+    if wrong is not None:
+        raise MeshError(f"{wrong!r} is not a node number: expected whole numbers, counted from 0")
+    if len(words) < 2:
+        raise MeshError("there is one node: expected two or more, joined by edges")
+    return [int(word) for word in words]
+
 
 #: Title of each format, and its reader, by suffix.
 SURFACE_FORMATS: dict[str, tuple[str, Callable[[Path], Polygons]]] = {
-    ".stl": ("STL", stl.read),
-    ".obj": ("OBJ", obj.read),
-    ".ply": ("PLY", ply.read),
-    ".vtp": ("VTP", vtk.read),
-    ".vtk": ("VTK legacy", vtk.read_legacy),
+    ".stl": ("STL", read_stl),
+    ".obj": ("OBJ", read_obj),
+    ".ply": ("PLY", read_ply),
+    ".vtp": ("VTP", read_vtp),
+    ".vtk": ("VTK legacy", read_legacy),
 }
 #: Points at a smaller distance, relative to the diagonal of the bounding box, are merged.
 _MERGE_TOLERANCE = 1e-9

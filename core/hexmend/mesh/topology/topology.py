@@ -14,8 +14,7 @@ from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_ITEMS, overflow_as_mesh_error
 from hexmend.mesh.solid_cells import face_nodes, kinds_of
-from hexmend.mesh.topology.components import components
-from hexmend.mesh.topology.marked_rows import any_of_rows
+from hexmend.mesh.topology.components import any_of_rows, components
 from hexmend.mesh.topology.split_faces import close_split_faces
 from hexmend.mesh.validation import as_bools, as_hexes
 from hexmend.parameters import Parameter

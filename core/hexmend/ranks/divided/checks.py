@@ -1,4 +1,9 @@
-"""Checks whether the parts of a mesh tell all that a run needs, or only the whole mesh does."""
+"""Checks whether the parts of a mesh tell all that a run needs, or only the whole mesh does.
+
+Orientation of hexes of a divided mesh: left-handed ones are found, renumbered and refused as in one process.
+
+Figures of a divided mesh as a whole.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +12,136 @@ import numpy as np
 from hexmend.io.formats.vtk.grid import HEXAHEDRON, KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.formats.vtk.merge_grids import GHOSTS
 from hexmend.io.slices import GridSlice
+from hexmend.kernels import elements
 from hexmend.layers.detection import THIN, sizes_at_wall
 from hexmend.mesh.cells import CELL_KINDS
+from hexmend.mesh.edge_length import edge_lengths, robust_mean, sample_stride
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import is_name_of_materials
+from hexmend.mesh.orientation import all_corners_negative, are_left_handed, left_handed_error, signed_volumes
+from hexmend.mesh.topology import Topology
+from hexmend.mesh.topology.components import face_parity, signed_components
+from hexmend.quality import measure
+from hexmend.quality.measure import locked_hexes
+from hexmend.quality.validity import least_jacobian
+from hexmend.ranks.divided.divided_mesh import DividedMesh
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart
+from hexmend.summary import Summary
+from hexmend.terminal_text import count_phrase
+
+
+def mean_edge_length(part: RankPart, hex_ids: np.ndarray) -> float:
+    """Compute the mean edge length of the whole mesh; see `hexmend.mesh.edge_length.mean_edge_length`.
+
+    All ranks call it together; `hex_ids` (m,) are the numbers of the hexes of the part.
+    """
+    mesh, ranks = part.mesh, part.ranks
+    own = mesh.hexes[part.counted]
+    total = elements.mean_edge_length(mesh.points, own) * len(own) if len(own) else 0.0
+    sampled = part.counted & (hex_ids % sample_stride(part.n_hexes) == 0)
+    sample = ranks.gather(edge_lengths(mesh.points, mesh.hexes[sampled]))
+    return robust_mean(ranks.sum(total) / part.n_hexes, sample)
+
+
+def summarise_part(part: RankPart, points: np.ndarray) -> Summary:
+    """Summarise the whole mesh, whose part has points (n, 3); all ranks call it together."""
+    ranks, own, hexes = part.ranks, part.counted, part.mesh.hexes
+    quality = measure(points, hexes)
+    q, m = quality.q[own], part.n_hexes
+    mean = ranks.sum(float(q.sum())) / m
+    locked = locked_hexes(points, hexes, part.mesh.fixed, quality.inverted)
+    inverted = ranks.sum(int(np.count_nonzero(quality.inverted & own)))
+    least = ranks.least(float(q.min(initial=np.inf)))
+    squares = ranks.sum(float(np.sum(1 / np.square(q[q > 0]))))
+    lowest = least_jacobian(points, np.ascontiguousarray(hexes[own])) if own.any() else 1.0
+    total = ranks.sum(float(np.square(quality.eta[own]).sum())) if not inverted else np.inf
+    return Summary(
+        hexes=m,
+        nodes=ranks.sum(int(np.count_nonzero(part.owned))),
+        free_nodes=ranks.sum(int(np.count_nonzero(part.mesh.free & part.owned))),
+        inverted=inverted,
+        invalid=ranks.sum(int(np.count_nonzero(quality.invalid & own))),
+        min_jacobian=ranks.least(lowest),
+        locked_inverted=ranks.sum(int(np.count_nonzero(locked & own))),
+        q_min=least,
+        q_mean=mean,
+        q_max=ranks.greatest(float(q.max(initial=-np.inf))),
+        q_std=float(np.sqrt(ranks.sum(float(np.square(q - mean).sum())) / m)),
+        q_norm=float(np.sqrt(m / squares)) if least > 0 else 0.0,
+        scaled_jacobian_min=ranks.least(float(quality.scaled_jacobian[own].min(initial=np.inf))),
+        objective=total if np.isfinite(total) else None,
+    )
+
+
+def check_divided_orientation(mesh: DividedMesh) -> None:
+    """Check that no hex is numbered left-handed; all ranks call it together.
+
+    Raises
+    ------
+    MeshError
+        On all ranks, where hexes are.
+    """
+    part = mesh.part
+    which = left_handed_hexes(part.ranks, part.mesh.points, part.mesh.hexes, mesh.hex_ids, part.owned)
+    count = part.ranks.sum(int(np.count_nonzero(which & part.counted)))
+    if count:
+        raise left_handed_error(count_phrase(count, "hex is", "hexes are"))
+
+
+def left_handed_hexes(
+    ranks: MPIRanks, points: np.ndarray, hexes: np.ndarray, ids: np.ndarray, owned: np.ndarray
+) -> np.ndarray:
+    """Find the hexes of a rank's part that are numbered left-handed in the whole mesh; all ranks call it together.
+
+    Each rank solves the parity of its own hexes (`face_parity`); hexes that several ranks have connect their
+    components.
+
+    Parameters
+    ----------
+    ranks : MPIRanks
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+        All hexes at the nodes that the rank owns.
+    ids : (m,) int
+        Their numbers in the whole mesh.
+    owned : (n,) bool
+
+    Returns
+    -------
+    (m,) bool
+    """
+    volume = signed_volumes(points, hexes)
+    if not ranks.any(volume < 0):
+        return np.zeros(len(hexes), dtype=bool)
+    of_own = owned[hexes[:, FACES]].any(axis=2)  # all hexes at such a face are here
+    component, sign = face_parity(hexes, np.where(of_own, Topology(hexes, len(points)).neighbours_in_any_order, -1))
+    component, sign = _in_whole_mesh(ranks, component, sign, ids, ~owned[hexes].all(axis=1))
+    group, of_hex = np.unique(3 * component + sign + 1, return_inverse=True)  # alike in the whole mesh
+    counted = owned[hexes[:, 0]]
+    values = volume, np.sign(volume), all_corners_negative(points, hexes, volume)
+    sums = [np.bincount(of_hex[counted], one[counted], len(group)) for one in values]
+    rows = ranks.gather(np.stack([group, *sums], axis=1))
+    components, signs = np.divmod(rows[:, 0].astype(np.int64), 3)
+    return np.isin(group, rows[are_left_handed(components, signs - 1, *rows[:, 1:].T), 0])[of_hex]
+
+
+def _in_whole_mesh(
+    ranks: MPIRanks, component: np.ndarray, sign: np.ndarray, ids: np.ndarray, shared: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Convert components and signs of hexes from a rank's part to the whole mesh; `shared` has the other parts'."""
+    first, component = np.unique(component, return_inverse=True)
+    counts = ranks.gather(np.array([first.size]))
+    component = component + counts[: ranks.number].sum()
+    rows = ranks.gather(np.stack([ids, component, sign], axis=1)[shared | (sign == 0)])
+    rows = rows[np.argsort(rows[:, 0], kind="stable")]
+    same = rows[1:, 0] == rows[:-1, 0]
+    none = rows[rows[:, 2] == 0, 1]
+    pairs = np.concatenate([np.stack([rows[:-1, 1], rows[1:, 1]], axis=1)[same], np.stack([none, none], axis=1)])
+    unlike = np.concatenate([(rows[:-1, 2] != rows[1:, 2])[same], np.ones(none.size, dtype=bool)])
+    whole, sign_of = signed_components(int(counts.sum()), pairs, unlike)
+    return whole[component], sign * sign_of[component]
+
 
 #: Prefix of arrays of ones and zeros that hold sets.
 _SET = "set:"

@@ -1,4 +1,9 @@
-"""Laplacian smoothing: Algorithm 3.1."""
+"""Laplacian smoothing: Algorithm 3.1.
+
+Laplacian sweeps over nodes with a linear motion: to the mean of the neighbours, as far as it admits.
+
+Smart Laplacian smoothing: Algorithm 3.1 in which harmful moves are rejected (3.1.1).
+"""
 
 from __future__ import annotations
 
@@ -6,12 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.arrays import index_of
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
+from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
 from hexmend.parameters import parameter
+from hexmend.quality import measure
 from hexmend.smoothers.base import Steps, Sweep, method
-from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps, moving
 from hexmend.smoothers.visit_order import ORDERS
 
@@ -66,3 +74,103 @@ class Laplacian(SlidingSmoother):
                 points = moved if sliding is None else sliding.reject_moves(points, sliding.projected(moved))
             yield Step(points)
             number += 1
+
+
+class ConstrainedMeans:
+    """Sweeps that move nodes and those tied to them by the admissible part of the mean of their Laplacian steps.
+
+    Independent nodes of one colour share no hex and move at once; a later colour uses the new positions.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With a linear motion.
+    chosen : (n,) bool
+        Nodes that move.
+    guard : str
+        Moves that are rejected: "inversion" those that invert an attached hex, "quality" also those that lower the
+        least q(H) of the attached hexes; "" none.
+    """
+
+    def __init__(self, mesh: Mesh, chosen: np.ndarray, guard: str = ""):
+        self._mesh, self._guard, self.rejected = mesh, guard, 0
+        self._root = mesh.linear_motion.roots(mesh.n_nodes)
+        independent = np.zeros(mesh.n_nodes, dtype=bool)
+        independent[self._root[chosen & mesh.free]] = True
+        self._colours = Topology(self._root[mesh.elements], mesh.n_nodes).colouring(independent)
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Return the points (n, 3) after a sweep; `rejected` counts the moves that were rejected in it."""
+        self.rejected = 0
+        for number in range(len(self._colours)):
+            points = self._moved(points, self._colours[number])
+        return points
+
+    def _moved(self, points: np.ndarray, masters: np.ndarray) -> np.ndarray:
+        mesh, rings = self._mesh, self._mesh.topology.rings
+        group = index_of(masters, mesh.n_nodes)[self._root]
+        nodes = np.flatnonzero((group >= 0) & (np.diff(rings.start) > 0))
+        count = np.diff(rings.start)[nodes]
+        sums = np.add.reduceat(points[rings.of(nodes)], np.cumsum(count) - count, axis=0)
+        steps = np.zeros(points.shape)
+        steps[nodes] = sums / count[:, None] - points[nodes]
+        moved = points.copy()
+        moved[nodes] += admissible_displacements(mesh.linear_motion, steps)[nodes]
+        if self._guard:
+            rejected = self._harmed(points, moved, group, masters.size)
+            moved[nodes] = np.where(rejected[group[nodes], None], points[nodes], moved[nodes])
+            self.rejected += int(rejected.sum())
+        return moved
+
+    def _harmed(self, before: np.ndarray, after: np.ndarray, group: np.ndarray, count: int) -> np.ndarray:
+        """Mark the groups of nodes whose moves are rejected, (count,) bool; `group` is -1 for nodes that stay."""
+        of_hex = group[self._mesh.elements].max(axis=1)
+        attached = np.flatnonzero(of_hex >= 0)
+        hexes, of_hex = self._mesh.elements[attached], of_hex[attached]
+        was, now = measure(before, hexes), measure(after, hexes)
+        harmed = np.bincount(of_hex, now.inverted & ~was.inverted, count) > 0
+        if self._guard == "quality":
+            least = np.ones((2, count))
+            np.minimum.at(least[0], of_hex, was.q)
+            np.minimum.at(least[1], of_hex, now.q)
+            harmed |= least[1] < least[0]
+        return harmed
+
+
+@method
+@dataclass(frozen=True)
+class SmartLaplacian(SlidingSmoother):
+    """Each node goes to the mean of its edge neighbours unless that harms an attached hex."""
+
+    name = "smart-laplacian"
+    title = "Smart Laplacian"
+    help = "Laplacian smoothing that rejects every move that inverts an attached hex. Never adds an inverted hex."
+    source = "Wilson 3.1.1"
+    bytes_per_hex = 400
+
+    guard: str = parameter(
+        "inversion",
+        choices=("inversion", "quality"),
+        help="Moves that are rejected: those that invert an attached hex, or also those that lower its least q(H).",
+    )
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
+        return ConstrainedMeans(mesh, linear, self.guard)
+
+    def steps(self, mesh: Mesh) -> Steps:
+        sliding, ring = self.sliding(mesh), mesh.topology.rings
+        surface = None
+        if sliding is not None:
+            mesh, ring, surface = sliding.mesh, sliding.rings, sliding.sliding_surface
+        hex_mesh = mesh.topology.hex_mesh
+        nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
+
+        def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
+            may_move, keep = moving(nodes, stays), self.guard == "quality"
+            return kernels.smart_sweep(moved, hex_mesh, ring.start, ring.items, may_move, keep, surface)
+
+        yield Step(points)
+        while True:
+            points, rejected = sweeps(points, sweep)
+            yield Step(points, {"rejected_steps": rejected})

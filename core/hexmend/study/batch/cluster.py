@@ -12,8 +12,7 @@ from uuid import uuid4
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.run.memory import available
 from hexmend.study.batch.process import run_task
-from hexmend.study.batch.table_columns import Status, answer
-from hexmend.study.batch.task import Task
+from hexmend.study.batch.task import Status, Task, answer
 from hexmend.terminal_text import install_hint
 
 if TYPE_CHECKING:

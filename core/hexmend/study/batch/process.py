@@ -24,8 +24,7 @@ from typing import IO, Any
 from hexmend.io.storage.subprocess_reader import last_line, wait_for
 from hexmend.kernels import cores, cores_for
 from hexmend.run.memory import available
-from hexmend.study.batch.table_columns import Status, answer, is_answer
-from hexmend.study.batch.task import Task
+from hexmend.study.batch.task import Status, Task, answer, is_answer
 
 
 def end_group(number: int) -> None:
@@ -76,7 +75,7 @@ def run_task(
     Returns
     -------
     dict or None
-        See `hexmend.study.batch.table_columns.answer`; None if it was cancelled.
+        See `hexmend.study.batch.task.answer`; None if it was cancelled.
     """
     began = monotonic()
     environment = dict.fromkeys(_THREADS, str(threads)) if threads else {}

@@ -15,8 +15,7 @@ from hexmend.errors import FileError
 from hexmend.io import writable_suffixes
 from hexmend.study.batch.case import Case
 from hexmend.study.batch.plan import Plan
-from hexmend.study.batch.table_columns import PLACE, Status, answer
-from hexmend.study.batch.task import Store, Task, content_hash
+from hexmend.study.batch.task import PLACE, Status, Store, Task, answer, content_hash
 
 #: Path of a mesh as given, and name of a case.
 _RowKey: TypeAlias = tuple[str, str]

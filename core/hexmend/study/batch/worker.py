@@ -19,8 +19,7 @@ from hexmend.run import smooth
 from hexmend.run.memory import peak_mb
 from hexmend.study.batch.case import read_case
 from hexmend.study.batch.process import end_group
-from hexmend.study.batch.table_columns import Status, answer
-from hexmend.study.batch.task import Task, content_hash
+from hexmend.study.batch.task import Status, Task, answer, content_hash
 
 
 def main(version: str) -> None:

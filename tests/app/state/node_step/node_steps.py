@@ -7,7 +7,7 @@ import numpy as np
 from hexmend import METHODS, Mesh
 from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
-from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend.smoothers.global_.descent import GlobalDescent
 from hexmend.smoothers.local.single_node import LocalDescent
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]

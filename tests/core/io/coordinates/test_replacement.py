@@ -11,10 +11,16 @@ from hypothesis import strategies as st
 import hexmend as hx
 from hexmend import FileError, io
 from hexmend.io import Original, write_as_given
-from hexmend.io.coordinates.edits import Edits, edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import ChangedFileError, difference
-from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words, number_texts, parse_fields
+from hexmend.io.coordinates.text_coordinates import (
+    Edits,
+    TextCoordinates,
+    edited,
+    fields_of_words,
+    number_texts,
+    parse_fields,
+)
 from hexmend.mesh.orientation import mirror_hexes
 from tests.core.grids import displaced, grid
 from tests.core.io.kept import assert_same, read_back, with_everything

@@ -8,7 +8,7 @@ from tests.core.io.formats.abaqus.test_abaqus import DECK, cube
 from tests.core.io.formats.gmsh.test_gmsh import FIRST_VERSION, HEAD, NODES
 from tests.core.io.formats.nastran.test_nastran import CUBE, GRIDS
 from tests.core.io.formats.ovm.test_ovm import written
-from tests.core.io.formats.test_su2 import POINTS, ZONE
+from tests.core.io.formats.test_library_formats import POINTS, ZONE
 from tests.core.io.kept import assert_refused
 
 SOUND = {

@@ -1,4 +1,9 @@
-"""Bytes of a file that is not in memory: as of bytes, and what happens where another program shortens the file."""
+"""Bytes of a file that is not in memory: as of bytes, and what happens where another program shortens the file.
+
+Reading in another process: what comes back, and what is said where nothing does.
+
+TOML files: read with what is wrong said by file, written as a whole.
+"""
 
 import os
 from pathlib import Path
@@ -6,9 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.errors import FileError
+from hexmend.errors import FileError, ParameterError
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.storage.binary_rows import FileBytes, read_blocks, read_rows
+from hexmend.io.storage import binary_rows as maps
+from hexmend.io.storage.binary_rows import FileBytes, parallel_map, read_blocks, read_rows
+from hexmend.io.storage.subprocess_reader import run_reader
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.io.storage.toml_files import read_toml, write_toml
 
 DATA = np.random.default_rng(5).integers(0, 256, 300_000, dtype=np.uint8).tobytes()
 
@@ -107,3 +116,97 @@ def test_errors_in_numbers_are_those_of_a_text_that_is_held(tmp_path, held, text
     cursor = ByteCursor(tmp_path / "file", text.encode() if held else FileBytes(tmp_path / "file"))
     with pytest.raises(FileError, match=message):
         cursor.read_numbers("numbers", 3, 2, np.int64)
+
+
+READERS = """
+import os, signal
+from hexmend.errors import FileError
+def dies(path): os.kill(os.getpid(), signal.SIGSEGV)
+def fails(path): raise ZeroDivisionError
+def refuses(path): raise FileError(path, "has a hole in it", "Mend it.")
+def swallows(path): bytearray(1 << 50)
+"""
+
+
+READER_ENDINGS = [
+    ("dies", "ends the library that reads it"),
+    ("fails", r"its reader fails \(ZeroDivisionError\)"),
+    ("swallows", "needs more memory than"),
+    ("refuses", r"^some\.dat: has a hole in it\. Mend it\.$"),
+]
+
+
+@pytest.mark.parametrize(("reader", "words"), READER_ENDINGS)
+def test_whatever_the_reader_does_this_process_says_it(reader, words, tmp_path, monkeypatch):
+    (tmp_path / "readers_that_fail.py").write_text(READERS)
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "some.dat").write_bytes(b"x")
+    with pytest.raises(FileError, match=words):
+        run_reader(f"readers_that_fail:{reader}", tmp_path / "some.dat")
+
+
+def refuses(text):
+    raise ParameterError(f"line 1 holds {text!r}")
+
+
+def test_what_is_written_is_read(tmp_path):
+    path = tmp_path / "one.toml"
+    write_toml(path, "a recipe", "title = 'Größe'\n")
+    assert read_toml(path, "a recipe", str.strip) == "title = 'Größe'"
+
+
+def test_what_is_wrong_names_the_file_and_what_to_do(tmp_path):
+    path = tmp_path / "one.toml"
+    path.write_text("x")
+    with pytest.raises(FileError, match=r"one\.toml: line 1 holds 'x'.*Correct the file"):
+        read_toml(path, "a recipe", refuses)
+
+
+def test_a_text_that_is_too_long_is_not_handed_on(tmp_path):
+    path = tmp_path / "one.toml"
+    path.write_text("x" * 11)
+    with pytest.raises(FileError, match="expected a scene, of 10 at most"):
+        read_toml(path, "a scene", refuses, largest=10)
+
+
+def test_another_suffix_is_refused_before_anything_is_written(tmp_path):
+    path = tmp_path / "one.json"
+    with pytest.raises(FileError, match=r"a scene cannot be written as \.json"):
+        write_toml(path, "a scene", "")
+    assert not path.exists()
+
+
+# What is written under a suffix that it cannot have is refused with those that it can.
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.CSV", "b.md", "c.d.md"])
+def test_a_suffix_that_there_is_is_told_in_small_letters(name):
+    assert suffix_for(name, "a table", [".csv", ".md"]) == f".{name.rpartition('.')[2].lower()}"
+
+
+def test_no_suffix_is_admitted_only_where_it_is_named():
+    assert suffix_for("/dev/stdout", "a table", [".csv", ""]) == ""
+    with pytest.raises(FileError, match=r"as a file without a suffix. Use \.csv\.$"):
+        suffix_for("table", "a table", [".csv"])
+
+
+# A function over many items in several threads: in their order, and the first error is raised.
+
+
+@pytest.fixture(params=[1, 3])
+def threads(request, monkeypatch):
+    monkeypatch.setattr(maps, "threads", lambda: request.param)
+
+
+def square(item):
+    if item < 0:
+        raise ValueError(f"{item} is negative")
+    return item**2
+
+
+@pytest.mark.usefixtures("threads")
+def test_results_are_in_the_order_of_the_items_and_so_are_errors():
+    assert list(parallel_map(square, range(10))) == [k**2 for k in range(10)]
+    assert list(parallel_map(square, [])) == []
+    with pytest.raises(ValueError, match="-1 is negative"):
+        list(parallel_map(square, [1, 2, 3, -1, -2]))

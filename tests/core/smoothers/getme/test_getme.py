@@ -1,4 +1,7 @@
-"""GETMe: its element step against the definition, and what both stages promise."""
+"""GETMe: its element step against the definition, and what both stages promise.
+
+Moves of GETMe that would invert a hex are halved, again and again, the fourth time to nothing.
+"""
 
 import itertools
 
@@ -9,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from hexmend import METHODS, Outcome, StoppingCriteria, gallery, measure, smooth
+from hexmend.kernels import getme
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
-from hexmend.smoothers.getme.sequential import HALVINGS
-from hexmend.smoothers.getme.simultaneous import figures_of_merit
+from hexmend.smoothers.getme.simultaneous import HALVINGS, figures_of_merit
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -141,3 +144,28 @@ def test_sequential_halves_its_share_after_each_sweep_without_a_rise_and_then_en
     steps = list(Sequential(relaxation=0.2).steps(grid(3)))[1:]
     assert [step.diagnostics["relaxation"] for step in steps] == [0.2 / 2**k for k in range(HALVINGS + 1)]
     assert all(step.intermediate for step in steps)
+
+
+def relaxed(moves):
+    """A grid of unit cubes whose free nodes go by `moves`, shortened; how many were."""
+    mesh = grid(2, 2, 3)
+    free = np.flatnonzero(mesh.free)
+    moved = mesh.points.copy()
+    moved[free] += moves
+    sound = ~measure(mesh.points, mesh.hexes).inverted
+    harmed = np.flatnonzero(sound & measure(moved, mesh.hexes).inverted).astype(np.int32)
+    count = getme.relax(mesh.points, mesh.topology.hex_mesh, sound, harmed, moved)
+    return moved[free] - mesh.points[free], count, measure(moved, mesh.hexes).n_inverted
+
+
+@pytest.mark.parametrize(
+    ("far", "share"), [(0.9, 1.0), (1.5, 0.5), (3.0, 0.25), (6.0, 0.125), (12.0, 0.0), (-3.0, 0.25)]
+)
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_move_is_halved_as_often_as_it_must_be(far, share, axis):
+    moves = np.zeros((2, 3))
+    moves[0, axis] = far
+    there, count, inverted = relaxed(moves)
+    np.testing.assert_allclose(there, share * moves)
+    assert inverted == 0
+    assert (count > 0) == (share < 1)

@@ -1,21 +1,27 @@
-"""Boundary by need: nodes leave it where it keeps hexes inverted, only they, and a tolerance is a hard limit."""
+"""Boundary by need: nodes leave it where it keeps hexes inverted, only they, and a tolerance is a hard limit.
+
+A boundary whose nodes move in space: which of them return exactly, and how far the others may be.
+"""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from hexmend import smooth
 from hexmend.boundary import NodeClass, SlidingBoundary
+from hexmend.energy import ObjectiveNorm
+from hexmend.energy.barriers.surface_fit import FitTolerances
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.fixing import with_pinned
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import StoppingCriteria, smooth
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.free_boundary import AUTO_FIT
+from hexmend.smoothers.mend.free_boundary import AUTO_FIT, FreeBoundary
 from hexmend.smoothers.sliding_smoother import absolute_tolerance
-from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
 
 Mend = METHODS["mend"]
@@ -219,3 +225,36 @@ def test_hexes_that_untangling_leaves_inverted_are_raised_from_where_the_fewest_
     result = smooth(read(real_mesh("dragon_in.mesh")), Mend(goal="scaled-jacobian", boundary="slide"))
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.1
+
+
+GIVEN = {
+    "cylinder": lambda: slid(cylinder(16, 2), 0.2, 0),
+    "ball": lambda: slid(ball(3), 0.2, 0),
+    "wavy": lambda: wavy(grid(4), 0.15, 2),
+}
+
+
+@pytest.mark.parametrize("goal", ["balanced", "scaled-jacobian"])
+@pytest.mark.parametrize("name", sorted(GIVEN))
+def test_a_tolerance_in_numbers_is_kept_where_only_some_nodes_return(name, goal):
+    result = smooth(GIVEN[name](), METHODS["mend"](goal=goal, boundary="slide", surface_tolerance=0.02))
+    assert result.surface.max <= 0.02
+
+
+def test_nodes_that_return_stay_where_they_are_in_the_units_of_the_mesh():
+    """Patches are flat or curved as a whole, not by the faces whose nodes have returned."""
+    mesh = make("bridge-sharp", size=108, scramble=0.05, seed=0)
+    tolerances = FitTolerances(0.07, 0.07, 0.01)
+    free = FreeBoundary(SlidingBoundary(mesh), np.zeros(mesh.n_hexes, bool), tolerances, ObjectiveNorm(1.0))
+    shift = np.random.default_rng(0).uniform(-0.02, 0.02, mesh.points.shape) * free.free[:, None]
+    exact, found = free.returned(mesh.points + shift * mesh.mean_edge_length, 0.01, 0.01)
+    again = exact.energy.to_mesh_units(exact.energy.to_edge_units(found))
+    np.testing.assert_allclose(again, found, atol=1e-12 * mesh.mean_edge_length)
+    assert exact.free.sum() < free.free.sum()
+
+
+def test_corners_stay_without_a_limit():
+    mesh = slid(cylinder(16, 2), 0.2, 0)
+    result = smooth(mesh, METHODS["mend"](boundary="slide", surface_tolerance="unlimited"))
+    corners = SlidingBoundary(mesh).mesh.fixed
+    np.testing.assert_array_equal(result.mesh.points[corners], mesh.points[corners])

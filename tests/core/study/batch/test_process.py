@@ -10,8 +10,7 @@ from hexmend import __version__, gallery, io, smooth
 from hexmend.study.batch.case import Case
 from hexmend.study.batch.plan import parse_plan
 from hexmend.study.batch.process import run_task
-from hexmend.study.batch.table_columns import is_answer
-from hexmend.study.batch.task import Task, content_hash
+from hexmend.study.batch.task import Task, content_hash, is_answer
 
 
 def task(mesh, case=None, **values):

@@ -9,7 +9,7 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.study.batch.table_columns import COLUMNS
+from hexmend.study.batch.task import COLUMNS
 from tests.core.study.batch.conftest import is_running, wait_until
 
 pytestmark = pytest.mark.slow

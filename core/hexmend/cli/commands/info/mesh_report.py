@@ -1,4 +1,7 @@
-"""The report that `hexmend info` prints on a mesh."""
+"""The report that `hexmend info` prints on a mesh.
+
+Table of a solver's checks.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ import numpy as np
 
 from hexmend.cli.commands.info.judgement import Judgement
 from hexmend.cli.output.mesh_output import print_notes
-from hexmend.cli.output.text_tables import print_kinds, print_spreads, print_summaries
+from hexmend.cli.output.text_tables import print_columns, print_kinds, print_spreads, print_summaries
 from hexmend.doctor import PROBLEMS, Finding, examine
 from hexmend.io import read
 from hexmend.layers import describe_layers, find_layers
@@ -19,7 +22,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
 from hexmend.quality.material_volumes import material_volumes
-from hexmend.terminal_text import count_phrase, printable
+from hexmend.quantity import format_count
+from hexmend.terminal_text import WorsenedText, count_phrase, printable
 
 if TYPE_CHECKING:
     from hexmend.locking import Locking
@@ -72,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     if mesh.materials is not None:
         _print_materials(mesh)
     if mesh.embedded.any():
-        from hexmend.run.interface_messages import describe_embedded
+        from hexmend.run.messages import describe_embedded
 
         print(describe_embedded(mesh))
     if second_order is not None:
@@ -82,8 +86,6 @@ def run(args: argparse.Namespace) -> int:
     if args.metrics:
         print_spreads(metrics)
     if checks is not None:
-        from hexmend.cli.output.check_table import print_checks
-
         print_checks(checks)
     _print_problems(args, mesh, findings)
     print(printable(judgement.line))
@@ -109,7 +111,7 @@ def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ..
 
 def _print_materials(mesh: Mesh) -> None:
     """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
-    from hexmend.run.interface_messages import describe_interfaces
+    from hexmend.run.messages import describe_interfaces
 
     materials = mesh.materials
     counts = np.bincount(materials.of_hex).tolist()
@@ -166,3 +168,24 @@ def _print_problems(args: argparse.Namespace, mesh: Mesh, findings: Sequence[Fin
             print(f"      {finding.location_text(_MAX_PLACES, mesh)}")
         if args.doctor and finding.mendable:
             print(f"      hexmend repair {args.mesh} -o OUT --only {finding.kind}")
+
+
+def print_checks(report: Report) -> None:
+    """Print each check with value, limit and count, then the verdict, what is left out, and a reservation."""
+    rows = []
+    for result in report.results:
+        painted = WorsenedText if result.count else str
+        beyond = f"{format_count(result.count)} of {format_count(result.total)} {result.check.unit_of_count}"
+        value = f"{result.value:.4g}".replace("inf", "∞")
+        counted = "–" if result.check.limit is None else beyond
+        verdict = painted(_VERDICTS[result.verdict])
+        rows.append([result.check.name, value, result.check.limit_text, result.check.unit or "–", counted, verdict])
+    print_columns(["Check", "Worst", "Limit", "Unit", "Beyond", "Verdict"], rows)
+    print(report.sentence)
+    print(f"note: {report.solver.tests_validity}")
+    print(f"note: {report.solver.omitted}")
+    if report.solver.reservation:
+        print(f"note: Limits and factors are {report.solver.reservation}.")
+
+
+_VERDICTS = {"passed": "passed", "warning": "warning", "failed": "failed", "value": "no limit"}

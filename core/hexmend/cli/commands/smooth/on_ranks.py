@@ -13,18 +13,16 @@ from typing import TYPE_CHECKING
 
 from hexmend.cli.arguments.run_arguments import check_targets, method_and_limits
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
-from hexmend.cli.commands.smooth.divided_source import DividedSource
+from hexmend.cli.commands.smooth.mesh_sources import DividedSource, WholeSource
 from hexmend.cli.commands.smooth.rank_result import AgreedError, agreed
-from hexmend.cli.commands.smooth.whole_source import WholeSource
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.io import writer_for
 from hexmend.io.files import check_not_included
 from hexmend.kernels import cores, cores_for, release_free_memory, set_threads, threads
-from hexmend.ranks.launching import local_ranks
-from hexmend.ranks.rank_run import RankRun
-from hexmend.ranks.rank_stages import check_method
+from hexmend.ranks.mpi_ranks import local_ranks
+from hexmend.ranks.rank_run import RankRun, check_method
 from hexmend.report.records import write_json
 from hexmend.run import StoppingCriteria
 from hexmend.run.memory import peak_mb

@@ -22,7 +22,7 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.errors import ParameterError
 from hexmend.io import read, writer_for
-from hexmend.io.surfaces.curve_file import with_curves_of_file
+from hexmend.io.surfaces.read import with_curves_of_file
 from hexmend.iteration import Iteration, Result
 from hexmend.mesh.fixing import fix_outside
 from hexmend.mesh.mesh import Mesh
@@ -31,7 +31,7 @@ from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report.records import record, write_history, write_json
 from hexmend.run import iterate
-from hexmend.run.interface_messages import describe_embedded
+from hexmend.run.messages import describe_embedded
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.terminal_text import install_hint

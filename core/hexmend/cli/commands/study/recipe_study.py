@@ -13,16 +13,13 @@ from hexmend import __version__
 from hexmend.cli.output.text_tables import print_table
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
-from hexmend.report.documents import output_folder
+from hexmend.report.documents import cases_table, failures, output_folder, write_batch_study, write_parquet
 from hexmend.run.progress import line_display
 from hexmend.study.batch.cluster import check_installed, cluster_answers
-from hexmend.study.batch.mesh_files import find_meshes
-from hexmend.study.batch.plan import read_plan
+from hexmend.study.batch.plan import find_meshes, read_plan
 from hexmend.study.batch.process import local_answers
 from hexmend.study.batch.runner import StudyProgress, StudyResult, Workers, run_study
-from hexmend.study.batch.table_columns import COLUMNS
-from hexmend.study.batch.task import Store
+from hexmend.study.batch.task import COLUMNS, Store
 from hexmend.study.machine import machine
 from hexmend.terminal_text import printable
 

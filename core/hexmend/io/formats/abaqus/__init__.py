@@ -33,6 +33,6 @@ register(
     stored_names=frozenset({"abaqus:type", "abaqus:types"}),
     limitations=deferred("hexmend.io.formats.abaqus.writer:limitations"),
     matches=_matches,
-    locate=deferred("hexmend.io.formats.abaqus.coordinates:locate"),
-    included=deferred("hexmend.io.formats.abaqus.includes:included_files"),
+    locate=deferred("hexmend.io.formats.abaqus.reader:locate"),
+    included=deferred("hexmend.io.formats.abaqus.deck:included_files"),
 )

@@ -12,10 +12,9 @@ from hexmend.arrays import mask
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order, unused_name
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.numbering import lookup as lookup_ids
-from hexmend.io.base.remedies import check_suffix, some_names, unread_note
+from hexmend.io.base.remedies import MemoryBudget, check_suffix, some_names, unread_note
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part, SetDefinition, SetLookup, name_key

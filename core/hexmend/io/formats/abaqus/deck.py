@@ -1,4 +1,7 @@
-"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow."""
+"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow.
+
+Files that an Abaqus deck includes, whose cards and data lines come in the places that name them.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.coordinates.joined_files import JoinedFiles
+from hexmend.io.coordinates import joined_files
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
 from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields, word_ranges
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
@@ -200,6 +204,11 @@ def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[n
     return begin.reshape(shape), end.reshape(shape)
 
 
+def unquoted(name: str) -> str:
+    """Name without the quotes around it."""
+    return name.strip().strip('"')
+
+
 def _split_keyword(head: str) -> tuple[str, dict[str, str]]:
     """Keyword and parameters of a keyword line."""
     fields = _split_fields(head.strip().lstrip("*").strip())
@@ -213,3 +222,30 @@ def _split_keyword(head: str) -> tuple[str, dict[str, str]]:
 def _split_fields(line: str) -> list[str]:
     """Split a line at its commas outside of quotes."""
     return _FIELD.findall(line) if '"' in line else line.split(",")
+
+
+#: Keywords whose data lines may be in another file.
+_INCLUDING = ("INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
+_INPUT = re.compile(rb"input\s*=[ \t]*(\"[^\"\n]*\"|[^,\r\n]*)", re.IGNORECASE)
+
+
+def join(path: Path) -> JoinedFiles:
+    """Read a deck with all files that it includes; see `JoinedFiles`."""
+    return JoinedFiles(path, _inclusions)
+
+
+def read_deck(path: Path) -> Deck:
+    """Read the cards of a deck and of all files that it includes."""
+    return Deck(path, join(path))
+
+
+def included_files(path: Path) -> set[Path]:
+    """Find the files that a deck includes."""
+    return joined_files.included_files(path, join)
+
+
+def _inclusions(data: bytes) -> Iterator[Inclusion]:
+    for first, end, name, options in keywords(data):
+        if name in _INCLUDING and "INPUT" in options:
+            file = unquoted(options["INPUT"]), *_INPUT.search(data, first).span(1)
+            yield Inclusion(first, first if name == "INCLUDE" else end, end, f"*{name}", [file])

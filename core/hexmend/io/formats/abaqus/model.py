@@ -13,8 +13,8 @@ import numpy as np
 
 from hexmend.io.base.content import node_count
 from hexmend.io.base.cursor import is_number, quoted
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import lookup
+from hexmend.io.base.remedies import MemoryBudget
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
 
@@ -28,11 +28,6 @@ def name_key(name: str) -> str:
     """Key by which names are compared: quoted names as they are, others in upper case."""
     name = name.strip()
     return name[1:-1] if len(name) > 1 and name[0] == name[-1] == '"' else name.upper()
-
-
-def unquoted(name: str) -> str:
-    """Name without the quotes around it."""
-    return name.strip().strip('"')
 
 
 @dataclass(eq=False)

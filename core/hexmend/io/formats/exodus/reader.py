@@ -10,15 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_blocks, node_count, to_vtk_order
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_other_kinds, node_count, to_vtk_order
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.base.numbering import check_numbers, lookup
 from hexmend.io.base.remedies import DAMAGED, unread_note
 from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryPiece, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
-from hexmend.io.formats.exodus.columns import join_columns
-from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
+from hexmend.io.formats.exodus.columns import FACE_OF_SIDE, ORDER, PINS_PROPERTY, join_columns, kinds_of
 from hexmend.io.formats.exodus.netcdf3 import is_classic
 from hexmend.io.formats.exodus.records import id_lines, read_records, unread_notes
 from hexmend.io.formats.exodus.store import CheckedVariables, ExodusStore, HDF5Store, open_store
@@ -67,7 +66,7 @@ class _Reader:
         self.add_element_sets(blocks, elements)
         hexes = [numbers for block, numbers in zip(blocks, elements, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
-        blocks, fields = tuple(_merge_other_kinds(blocks)), {**id_lines(self.id_names), **read_records(self.store)}
+        blocks, fields = merge_other_kinds(blocks), {**id_lines(self.id_names), **read_records(self.store)}
         notes = (*self.notes, *unread_notes(self.store))
         return Content(points, blocks, node_data, node_sets, side_sets, pinned, fields, notes, self.unread)
 
@@ -222,14 +221,6 @@ class _Reader:
         self.id_names += [(entity, number, name) for number, name in zip(ids, names, strict=True)]
         named = enumerate(names, 1)
         return [(k, name) for k, name in named if all(f"{one}_{entity}{k}" in self.store for one in variables)]
-
-
-def _merge_other_kinds(blocks: list[Block]) -> list[Block]:
-    """Blocks of hexes as they are, and one block for each other kind."""
-    merged = [block for block in blocks if block.kind in HEX_KINDS]
-    for kind in dict.fromkeys(block.kind for block in blocks if block.kind not in HEX_KINDS):
-        merged.append(merge_blocks([block for block in blocks if block.kind == kind]))
-    return merged
 
 
 def locate(path: Path) -> LocatedCoordinates:

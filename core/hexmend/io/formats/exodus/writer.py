@@ -19,8 +19,16 @@ from hexmend.io.base.capabilities import (
 from hexmend.io.base.content import ID, Block, concatenate_sets, from_vtk_order, hex_blocks, unused_name
 from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
 from hexmend.io.base.numbering import fit_64_bits
-from hexmend.io.formats.exodus.columns import are_ids, clean_name, column_titles, columns
-from hexmend.io.formats.exodus.elements import ORDER, PINS_PROPERTY, SIDE_OF_FACE, TYPE_OF_KIND
+from hexmend.io.formats.exodus.columns import (
+    ORDER,
+    PINS_PROPERTY,
+    SIDE_OF_FACE,
+    TYPE_OF_KIND,
+    are_ids,
+    clean_name,
+    column_titles,
+    columns,
+)
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.records import IDS, add_records, assigned_ids
 from hexmend.mesh.mesh import Mesh

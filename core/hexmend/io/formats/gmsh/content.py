@@ -13,9 +13,8 @@ from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, dimension, to_vtk_order, unused_name
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import find_ids, lookup
-from hexmend.io.base.remedies import some_names, unread_note
+from hexmend.io.base.remedies import MemoryBudget, some_names, unread_note
 from hexmend.io.formats.gmsh.sections import (
     KIND_OF_TYPE,
     NAMES,

@@ -31,6 +31,6 @@ register(
     limitations=deferred("hexmend.io.formats.lsdyna.writer:limitations"),
     exact=False,  # a column of a coordinate has room for 16 letters
     matches=lambda head: _FIRST.match(head) is not None,
-    locate=deferred("hexmend.io.formats.lsdyna.coordinates:locate"),
+    locate=deferred("hexmend.io.formats.lsdyna.reader:locate"),
     included=deferred("hexmend.io.formats.lsdyna.deck:included_files"),
 )

@@ -14,13 +14,19 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, node_count, to_vtk_order
-from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.numbering import check_numbers
-from hexmend.io.base.remedies import DAMAGED, check_suffix, unread_note
+from hexmend.io.base.remedies import DAMAGED, MemoryBudget, check_suffix, unread_note
 from hexmend.io.coordinates.binary_coordinates import ALL_COLUMNS, locate_datasets
 from hexmend.io.coordinates.located import LocatedCoordinates
-from hexmend.io.formats.med.arrays import KIND_OF_TYPE, ORDER, TYPE_OF_KIND, decode_names, read_array, read_integers
-from hexmend.io.formats.med.fields import read_fields
+from hexmend.io.formats.med.fields import (
+    KIND_OF_TYPE,
+    ORDER,
+    TYPE_OF_KIND,
+    decode_names,
+    read_array,
+    read_fields,
+    read_integers,
+)
 from hexmend.io.storage import subprocess_reader
 
 

@@ -13,8 +13,18 @@ from hexmend.io.base.content import ID, Block, Content, from_mesh, from_vtk_orde
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.hdf5 import writable_file
 from hexmend.io.base.numbering import fit_64_bits, set_combinations
-from hexmend.io.formats.med.arrays import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND, encode_names, group_titles
-from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, titled_fields, type_code, write_fields
+from hexmend.io.formats.med.fields import (
+    GEOMETRY_NUMBERS,
+    NO_PROFILE,
+    NO_STEP,
+    ORDER,
+    TYPE_OF_KIND,
+    encode_names,
+    group_titles,
+    titled_fields,
+    type_code,
+    write_fields,
+)
 from hexmend.mesh.mesh import Mesh
 
 

@@ -1,5 +1,5 @@
 """Medit's format, in decimals (.mesh) and binary (.meshb)."""
 
-from hexmend.io.formats.medit import ascii, binary
+from hexmend.io.formats.medit import sections
 
-__all__ = ["ascii", "binary"]
+__all__ = ["sections"]

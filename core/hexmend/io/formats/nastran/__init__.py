@@ -34,12 +34,12 @@ register(
     suffixes=(".bdf", ".nas", ".dat", ".fem"),
     encodings=("ascii",),
     read=deferred("hexmend.io.formats.nastran.reader:read"),
-    write=deferred("hexmend.io.formats.nastran.writer:write"),
+    write=deferred("hexmend.io.formats.nastran.cards:write"),
     capabilities=frozenset({Capability.IDS, Capability.OTHER_CELLS}),
     stored_names=_Properties(),
-    limitations=deferred("hexmend.io.formats.nastran.writer:limitations"),
+    limitations=deferred("hexmend.io.formats.nastran.cards:limitations"),
     exact=False,  # a column has room for 12 to 14 digits
     matches=lambda head: _FIRST.match(head) is not None or _BEGIN.search(head) is not None,
     locate=deferred("hexmend.io.formats.nastran.coordinates:locate"),
-    included=deferred("hexmend.io.formats.nastran.files:included_files"),
+    included=deferred("hexmend.io.formats.nastran.bulk:included_files"),
 )

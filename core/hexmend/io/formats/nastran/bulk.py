@@ -1,6 +1,8 @@
 """Nastran's bulk data as cards: fields of 8 or 16 columns, or between commas, with their continuations.
 
 Lines are cut into fields by array operations, thousands at a time; those with commas, tabs or comments one by one.
+
+Files of a Nastran deck, joined where INCLUDE names them.
 """
 
 from __future__ import annotations
@@ -15,6 +17,8 @@ from numpy.lib.stride_tricks import sliding_window_view
 from hexmend.errors import FileError
 from hexmend.io.base.cards import LONGEST, Cards
 from hexmend.io.base.cursor import quoted
+from hexmend.io.coordinates import joined_files
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536
@@ -144,3 +148,29 @@ def _split(line: bytes) -> tuple[bytes, bytes, list[bytes]]:
     head = line[:8].strip().upper()
     width = 16 if head.startswith(b"*") or head.endswith(b"*") else 8
     return head, line[72:80].strip().upper(), [line[k : k + width].strip() for k in range(8, 72, width)]
+
+
+_INCLUDE = re.compile(rb"^[ \t]*INCLUDE[ \t,=]*('[^']*'|\"[^\"]*\"|[^\s$,]+)[^\n]*", re.IGNORECASE | re.MULTILINE)
+_END = re.compile(rb"^ENDDATA[^\n]*\n?", re.IGNORECASE | re.MULTILINE)
+
+
+def join(path: Path) -> JoinedFiles:
+    """Read a deck with all files that it includes; see `JoinedFiles`."""
+    return JoinedFiles(path, _inclusions, _end)
+
+
+def included_files(path: Path) -> set[Path]:
+    """Find the files that a deck includes."""
+    return joined_files.included_files(path, join)
+
+
+def _inclusions(data: bytes) -> Iterator[Inclusion]:
+    for found in _INCLUDE.finditer(data):
+        name = found[1].strip(found[1][:1]) if found[1][:1] in (b"'", b'"') else found[1]
+        text = re.sub(rb"\s*\n\s*", b"", name).decode("utf-8", errors="replace")
+        yield Inclusion(found.start(), *found.span(), "INCLUDE", [(text, *found.span(1))])
+
+
+def _end(data: bytes) -> int:
+    found = _END.search(data)
+    return found.end() if found else len(data)

@@ -13,11 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits
 from hexmend.io.coordinates.joined_files import JoinedFiles
-from hexmend.io.formats.nastran.bulk import BulkData
+from hexmend.io.coordinates.text_coordinates import Edits
+from hexmend.io.formats.nastran.bulk import BulkData, join
 from hexmend.io.formats.nastran.cards import is_exact, real_field
-from hexmend.io.formats.nastran.files import join
 from hexmend.io.formats.nastran.reader import BulkModel, GridPoints
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.terminal_text import count_phrase

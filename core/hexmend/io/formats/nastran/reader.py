@@ -17,9 +17,8 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
-from hexmend.io.formats.nastran.bulk import BulkData
+from hexmend.io.formats.nastran.bulk import BulkData, join
 from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
-from hexmend.io.formats.nastran.files import join
 from hexmend.io.formats.nastran.systems import CoordinateSystems
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh

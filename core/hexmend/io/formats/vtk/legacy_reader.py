@@ -14,11 +14,9 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
-from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import check_suffix, unread_note
+from hexmend.io.base.remedies import MemoryBudget, check_suffix, unread_note
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
-from hexmend.io.formats.vtk.legacy_writer import write
+from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells, write
 from hexmend.io.formats.vtk.structured import grid_points, structured_cells
 from hexmend.io.storage.binary_rows import FileBytes
 from hexmend.mesh.mesh import Mesh

@@ -23,8 +23,7 @@ from hexmend.io.base.content import Content, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.hdf5 import writable_file
-from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import DAMAGED, check_suffix
+from hexmend.io.base.remedies import DAMAGED, MemoryBudget, check_suffix
 from hexmend.io.formats.vtk.grid import Grid, from_mesh, to_content
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import writable

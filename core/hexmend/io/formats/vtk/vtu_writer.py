@@ -13,8 +13,8 @@ from hexmend.errors import FileError
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.xml_document import TYPES
+from hexmend.io.storage.binary_rows import parallel_map
 from hexmend.io.storage.file_progress import advance
-from hexmend.io.storage.parallel_map import parallel_map
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes of an array that are compressed together.

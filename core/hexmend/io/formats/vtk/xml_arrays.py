@@ -18,8 +18,8 @@ import numpy as np
 
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
+from hexmend.io.storage.binary_rows import parallel_map
 from hexmend.io.storage.file_progress import advance
-from hexmend.io.storage.parallel_map import parallel_map
 
 #: Names of compressors.
 COMPRESSORS = {"vtkZLibDataCompressor": "zlib", "vtkLZ4DataCompressor": "LZ4", "vtkLZMADataCompressor": "LZMA"}

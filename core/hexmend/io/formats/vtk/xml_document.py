@@ -15,8 +15,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import is_number
-from hexmend.io.base.memory_budget import MemoryBudget
-from hexmend.io.base.remedies import DAMAGED, check_suffix
+from hexmend.io.base.remedies import DAMAGED, MemoryBudget, check_suffix
 from hexmend.terminal_text import printable
 
 #: NumPy types of arrays, without the byte order. Bits are packed: see `hexmend.io.formats.vtk.xml_arrays`.

@@ -8,7 +8,7 @@ import pytest
 
 from hexmend import FileError, io, summarise
 from hexmend.io.formats.openfoam import times
-from hexmend.io.formats.openfoam.moved_points import read_times
+from hexmend.io.formats.openfoam.foam_text import read_times
 from hexmend.mesh.hexahedron import FACES
 from hexmend.study.batch.task import content_hash
 from tests.core.grids import grid

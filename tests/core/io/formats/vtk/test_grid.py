@@ -7,7 +7,7 @@ from hexmend import io
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
-from tests.core.io.formats.vtk.test_by_vtk import WRITERS
+from tests.core.io.formats.vtk.test_vtu import WRITERS
 from tests.core.io.vtk_writers import by_vtk
 
 vtk = pytest.importorskip("vtk")
