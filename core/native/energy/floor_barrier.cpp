@@ -282,9 +282,8 @@ void assemble_of(Points points, const Floors &floors, OmittedCorners omitted, co
                 auto by = barrier_of<true>(quality, block.quality, floors.quality_band, ALL);
                 some = by.any;
                 if (by.any) {
-                    unroll<Cell::corners>([&](auto t) {
-                        add_tetrahedron<Cell, false, t>(x, scales, 0.0, counted(t), *sums, Inverse{});
-                    });
+                    unroll<Cell::corners>(
+                        [&](auto t) { add_tetrahedron<Cell, false, t>(x, scales, 0.0, counted(t), *sums, Inverse{}); });
                     for (auto &entry : sums->at) entry = by_eighths<Cell>(by.first) * entry;
                 }
                 unroll<Cell::corners>([&](auto t) {

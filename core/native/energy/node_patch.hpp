@@ -168,7 +168,8 @@ template <class T, class Target = Cubes> class NodePatch {
             T eta = block.constant;
             for (int j = 0; j < 4; ++j) {
                 const auto &t = block.incident[j];
-                T sigma = t.sigma + alpha * t.along_g, squared = (t.square + t.squared_scales * far) + alpha * t.along_b;
+                T sigma = t.sigma + alpha * t.along_g,
+                  squared = (t.square + t.squared_scales * far) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
                 if constexpr (scaled) eta += size_term<soft>(sigma, delta, block.scales.size_weight).value;
             }
@@ -253,7 +254,6 @@ template <class T, class Target = Cubes> class NodePatch {
         V3<T> g, b;
         T along_g, along_b;
         Energy<T> energy;
-
     };
 
     struct Block {
@@ -306,8 +306,7 @@ template <class T, class Target = Cubes> class NodePatch {
         for (int i = 0; i < width<T>; ++i) {
             std::int32_t corner = corner_in(star, b, i);
             const auto &row = target_.inverse_lengths[corner / 8];
-            for (int k = 0; k < 3; ++k)
-                inverse[i][k] = row[blocks_[b].mixed ? k : ROTATED_DIRECTIONS[corner % 8][k]];
+            for (int k = 0; k < 3; ++k) inverse[i][k] = row[blocks_[b].mixed ? k : ROTATED_DIRECTIONS[corner % 8][k]];
         }
         auto &scales = blocks_[b].scales;
         scales = {load_lanes<T>([&](int i) -> const Point & { return inverse[i]; }), target_.size_weight};
@@ -403,7 +402,8 @@ template <class T, class Target = Cubes> class NodePatch {
         set_lane(to.x, i, v.x), set_lane(to.y, i, v.y), set_lane(to.z, i, v.z);
     }
 
-    // Inverse target lengths of the cell in lane i along the columns of S W^-1 at corner t; of a hex, by its directions.
+    // Inverse target lengths of the cell in lane i along the columns of S W^-1 at corner t; of a hex, by its
+    // directions.
     static std::array<double, 3> lengths_in_lane(const Block &block, int i, int t) {
         if constexpr (!scaled) return {1, 1, 1};
         else {
@@ -415,7 +415,8 @@ template <class T, class Target = Cubes> class NodePatch {
         }
     }
 
-    // The table of a cell of any kind, that in lane i. What is missing of four tetrahedra is perfect and does not change.
+    // The table of a cell of any kind, that in lane i. What is missing of four tetrahedra is perfect and does not
+    // change.
     template <bool soft> static void tabulate_lane(Block &block, int i, double delta) {
         const TetrahedraAtNode &at = *block.at[i];
         const CellTable &table = *block.table[i];
@@ -452,13 +453,12 @@ template <class T, class Target = Cubes> class NodePatch {
 
     // Columns of E A D: edges, a matrix, factors of its columns.
     static M3<double> combined(const V3<double> (&edges)[3], const double (&a)[3][3], const std::array<double, 3> &by) {
-        auto column = [&](int k) {
-            return by[k] * (a[0][k] * edges[0] + a[1][k] * edges[1] + a[2][k] * edges[2]);
-        };
+        auto column = [&](int k) { return by[k] * (a[0][k] * edges[0] + a[1][k] * edges[1] + a[2][k] * edges[2]); };
         return {column(0), column(1), column(2)};
     }
 
-    static void put(TetTerms &t, int i, double sigma, double square, const V3<double> &g, const V3<double> &b, double k) {
+    static void put(TetTerms &t, int i, double sigma, double square, const V3<double> &g, const V3<double> &b,
+                    double k) {
         set_lane(t.sigma, i, sigma), set_lane(t.square, i, square), set_lane(t.squared_scales, i, k);
         set_in_lane(t.g, i, g), set_in_lane(t.b, i, b);
     }

@@ -20,7 +20,8 @@ void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, dou
 }
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows) {
-    expect(corners.size() <= shares.size(), "corners: at most as many as the rows of shares, eight a cell, are expected");
+    expect(corners.size() <= shares.size(),
+           "corners: at most as many as the rows of shares, eight a cell, are expected");
     expect(are_csr(start, corners.size()), "start: its last number is expected to be the length of corners");
     expect(rows.size() == nodes.size(), "rows: one for each of nodes is expected");
     parallel_for(nodes.size(), 4 * HEXES_PER_CHUNK, [&](std::int64_t k) {

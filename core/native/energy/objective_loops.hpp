@@ -20,7 +20,8 @@ void energies_in(Points points, Hexes hexes, double delta, double offset, Omitte
             T sum{};
             with_corner_mask<T>(omitted, first, count, [&](auto counted) {
                 unroll<Cell::corners>([&](auto t) {
-                    sum += hexmend::eta<soft>(x.template shape<Cell, t>(), scales.template columns<Cell, t>(), delta, counted(t));
+                    sum += hexmend::eta<soft>(x.template shape<Cell, t>(), scales.template columns<Cell, t>(), delta,
+                                              counted(t));
                 });
             });
             sum = cell_energy(sum, Cell::share, offset);

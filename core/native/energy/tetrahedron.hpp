@@ -10,10 +10,10 @@
 // The second is (B.19), corrected, with (B.3) substituted for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing
 // is divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
 //
-// For a cell that is no hex, and with a target, S is S W^-1 throughout (hexahedron.hpp, column_scales.hpp). With a target,
-// next to the shape the size counts: weight g(h), g(h) =
-// (h + 1/h)/2 - 1, which is convex in sigma for any delta. With h' = h/r and h'' = 2 delta^2/r^3 its derivatives by
-// sigma are (h - 1/h)/(2 r) and 1/(h r^2) + (1 - 1/h^2) delta^2/r^3.
+// For a cell that is no hex, and with a target, S is S W^-1 throughout (hexahedron.hpp, column_scales.hpp). With a
+// target, next to the shape the size counts: weight g(h), g(h) = (h + 1/h)/2 - 1, which is convex in sigma for any
+// delta. With h' = h/r and h'' = 2 delta^2/r^3 its derivatives by sigma are (h - 1/h)/(2 r) and 1/(h r^2) + (1 - 1/h^2)
+// delta^2/r^3.
 //
 // A tetrahedron that is not `counted` is omitted: f, to which energy and derivatives are proportional, is 0. The
 // template parameter `soft` is true for delta > 0.

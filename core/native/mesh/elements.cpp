@@ -102,8 +102,8 @@ void measure_against(Points points, Hexes hexes, const TargetMatrices &target, s
         auto scales = scales_of<Lanes>(target, first, count);
         Lanes quality{}, energy{};
         unroll<Cell::corners>([&](auto t) {
-            Lanes corner =
-                hexmend::eta<false>(x.template shape<Cell, t>(), scales.template columns<Cell, t>(), 0, std::true_type{});
+            Lanes corner = hexmend::eta<false>(x.template shape<Cell, t>(), scales.template columns<Cell, t>(), 0,
+                                               std::true_type{});
             energy += corner;
             quality += corner > 0.0 ? 1.0 / corner : broadcast<Lanes>(0.0);
         });

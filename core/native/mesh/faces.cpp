@@ -36,16 +36,17 @@ void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<do
                     low = min(c, low), high = max(c, high);
                 });
             });
-        } else unroll<8>([&](auto t) {  // the edges from a corner make the angles of three faces
-            auto [u, v, w] = x.template edges<t>();
-            Lanes a = length(u), b = length(v), c = length(w), product = a * b * c;
-            auto valid = (product > 0.0) & (product < INF);
-            Lanes one = 1.0 / product;
-            Lanes uv = dot(u, v) * c * one, vw = dot(v, w) * a * one, wu = dot(w, u) * b * one;
-            // The angle at an edge of no length is undefined: count it as the worst at either end.
-            low = valid ? min(uv, min(vw, min(wu, low))) : broadcast<Lanes>(-1.0);
-            high = valid ? max(uv, max(vw, max(wu, high))) : broadcast<Lanes>(1.0);
-        });
+        } else
+            unroll<8>([&](auto t) {  // the edges from a corner make the angles of three faces
+                auto [u, v, w] = x.template edges<t>();
+                Lanes a = length(u), b = length(v), c = length(w), product = a * b * c;
+                auto valid = (product > 0.0) & (product < INF);
+                Lanes one = 1.0 / product;
+                Lanes uv = dot(u, v) * c * one, vw = dot(v, w) * a * one, wu = dot(w, u) * b * one;
+                // The angle at an edge of no length is undefined: count it as the worst at either end.
+                low = valid ? min(uv, min(vw, min(wu, low))) : broadcast<Lanes>(-1.0);
+                high = valid ? max(uv, max(vw, max(wu, high))) : broadcast<Lanes>(1.0);
+            });
         put_angle(high, first, count, smallest);
         put_angle(low, first, count, largest);
     });

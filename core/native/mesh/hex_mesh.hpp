@@ -5,7 +5,8 @@
 
 namespace hexmend {
 
-// The edges of a kind of cells at each of its nodes, three or four: their other ends, and the two faces that meet there.
+// The edges of a kind of cells at each of its nodes, three or four: their other ends, and the two faces that meet
+// there.
 struct EdgesAtNode {
     int count = 0, ends[4] = {}, faces[4][2] = {};
 };
@@ -25,7 +26,7 @@ constexpr auto EDGES_AT_NODE = [] {
             at.ends[at.count++] = end;
         };
         for (int node = 0; node < table.nodes; ++node) {
-            if (node < table.corners && table.corners > 1) {
+            if (node < table.corners) {
                 for (int k = 1; k < 4; ++k) add(node, table.corner_tetrahedra[node][k]);
                 continue;
             }

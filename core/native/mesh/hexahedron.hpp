@@ -25,8 +25,8 @@ inline Point unit(const V3<double> &v) {
 }
 
 // A kind of cells: what is listed of each is numbered by its own nodes, in the order of VTK. A triangle is a quad whose
-// last two nodes are one. With W the edges of the ideal cell at each of its corner tetrahedra, S W^-1 takes the place of
-// S: `inverse` is W^-1, upper triangular, and its determinant is 1 over the scaled Jacobian of the ideal cell.
+// last two nodes are one. With W the edges of the ideal cell at each of its corner tetrahedra, S W^-1 takes the place
+// of S: `inverse` is W^-1, upper triangular, and its determinant is 1 over the scaled Jacobian of the ideal cell.
 struct CellTable {
     int nodes, corners, edges, faces;
     int corner_tetrahedra[8][4], edge_ends[12][2], face_nodes[6][4];
@@ -37,25 +37,38 @@ struct CellTable {
 
 enum CellKind { HEXAHEDRON, WEDGE, PYRAMID, TETRAHEDRON, CELL_KINDS };
 
-// The ideal cells: a cube, an equilateral triangle extruded by its edge, a pyramid of equal edges, a regular tetrahedron.
+// The ideal cells: a cube, an equilateral triangle extruded by its edge, a pyramid of equal edges, a regular
+// tetrahedron.
 inline constexpr CellTable CELL_TABLES[CELL_KINDS] = {
-    {8, 8, 12, 6,
+    {8,
+     8,
+     12,
+     6,
      {{0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}},
      {{0, 1}, {3, 2}, {4, 5}, {7, 6}, {0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 4}, {1, 5}, {3, 7}, {2, 6}},
      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}},
      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-    {6, 6, 9, 5,
+    {6,
+     6,
+     9,
+     5,
      {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}},
      {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
      {{0, 2, 1, 1}, {3, 4, 5, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
      {{1, -1 / ROOT_3, 0}, {0, 2 / ROOT_3, 0}, {0, 0, 1}}},
-    {5, 4, 8, 5,
+    {5,
+     4,
+     8,
+     5,
      {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}},
      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
      {{0, 3, 2, 1}, {0, 1, 4, 4}, {1, 2, 4, 4}, {2, 3, 4, 4}, {3, 0, 4, 4}},
      {{1, 0, -ROOT_2 / 2}, {0, 1, -ROOT_2 / 2}, {0, 0, ROOT_2}}},
-    {4, 1, 6, 4,
-     {{0, 1, 2, 3}},
+    {4,
+     4,
+     6,
+     4,
+     {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 1, 0, 2}},
      {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
      {{0, 2, 1, 1}, {0, 1, 3, 3}, {1, 2, 3, 3}, {2, 0, 3, 3}},
      {{1, -1 / ROOT_3, -1 / ROOT_6}, {0, 2 / ROOT_3, -1 / ROOT_6}, {0, 0, ROOT_6 / 2}}},
@@ -63,7 +76,8 @@ inline constexpr CellTable CELL_TABLES[CELL_KINDS] = {
 
 // The kind of a row of eight nodes: that of fewer nodes is padded by its last one.
 inline CellKind kind_of(const Hex &row) {
-    if (row[6] != row[7] || row[5] != row[6]) [[likely]] return HEXAHEDRON;
+    if (row[6] != row[7] || row[5] != row[6]) [[likely]]
+        return HEXAHEDRON;
     if (row[4] != row[5]) return WEDGE;
     if (row[3] != row[4]) return PYRAMID;
     return row[2] != row[3] ? TETRAHEDRON : HEXAHEDRON;
@@ -86,10 +100,14 @@ using Hexahedron = Cell<HEXAHEDRON>;
 // Call body(cell) with the kind of a row.
 template <class Body> inline __attribute__((always_inline)) auto with_kind(const Hex &row, const Body &body) {
     switch (kind_of(row)) {
-    case WEDGE: return body(Cell<WEDGE>{});
-    case PYRAMID: return body(Cell<PYRAMID>{});
-    case TETRAHEDRON: return body(Cell<TETRAHEDRON>{});
-    default: return body(Hexahedron{});
+        case WEDGE:
+            return body(Cell<WEDGE>{});
+        case PYRAMID:
+            return body(Cell<PYRAMID>{});
+        case TETRAHEDRON:
+            return body(Cell<TETRAHEDRON>{});
+        default:
+            return body(Hexahedron{});
     }
 }
 

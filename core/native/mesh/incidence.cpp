@@ -82,9 +82,7 @@ bool are_opposed(Hexes hexes, int one, int other) {
         auto &nodes = table_of(hexes[face / 6]).face_nodes[face % 6];
         return nodes[2] == nodes[3] ? 3 : 4;
     };
-    auto node = [&](int face, int k) {
-        return hexes[face / 6][table_of(hexes[face / 6]).face_nodes[face % 6][k]];
-    };
+    auto node = [&](int face, int k) { return hexes[face / 6][table_of(hexes[face / 6]).face_nodes[face % 6][k]]; };
     const int count = corners(one);
     if (corners(other) != count) return false;
     for (int last = count - 1; last < 2 * count - 1; ++last) {

@@ -106,9 +106,8 @@ class SingleHex {
 // Of a cell of any kind.
 inline Quality<double> cell_quality(Points points, const Hex &cell) {
     if (kind_of(cell) == HEXAHEDRON) return SingleHex(points, cell).quality();
-    return with_kind(cell, [&](auto kind) {
-        return quality<decltype(kind)>(gather_corners<double>(points, {&cell, 1}, 0, 1));
-    });
+    return with_kind(
+        cell, [&](auto kind) { return quality<decltype(kind)>(gather_corners<double>(points, {&cell, 1}, 0, 1)); });
 }
 
 inline bool is_valid(Points points, const Hex &cell) {

@@ -51,8 +51,8 @@ JacobianPolynomial<double, 2> jacobian_polynomial(const std::array<double, 81> &
 
 // det J of other cells, by what is sure to have its signs. A tetrahedron has one value. That of a pyramid is, over the
 // square of the height that remains, a polynomial of degree 2 along both directions of the base. That of a wedge is
-// linear over the triangle and of degree 2 along the extrusion: over the square that the triangle's corners and the first
-// of them span it is bilinear, with the same extremes.
+// linear over the triangle and of degree 2 along the extrusion: over the square that the triangle's corners and the
+// first of them span it is bilinear, with the same extremes.
 template <class Cell, class T> JacobianPolynomial<T, 1> jacobian_polynomial_of(const Corners<T> &x) {
     if constexpr (Cell::is_cube) return jacobian_polynomial(x);
     JacobianPolynomial<T, 1> jacobian(control_points(x));  // its size is that of a hex with all these nodes
@@ -63,13 +63,14 @@ template <class Cell, class T> JacobianPolynomial<T, 1> jacobian_polynomial_of(c
                 for (int k = 0; k < 3; ++k) at[i][j][k] = value(i, j, k);
     };
     auto corner = [&](auto t) { return determinant(x.template edges<Cell, t>()); };
-    if constexpr (Cell::corners == 1) {
+    if constexpr (Cell::table.nodes == 4) {
         T whole = corner(constant<0>{});
         fill([&](int, int, int) { return whole; });
-    } else if constexpr (Cell::corners == 4) {
+    } else if constexpr (Cell::table.nodes == 5) {
         // Base edges along u at v = 0, 1, along v at u = 0, 1, and edges to the apex: det [B_u, B_v, A - B].
         auto &[a, b, c, d, top, p5, p6, p7] = x.at;
-        V3<T> along_u[2] = {b - a, c - d}, along_v[2] = {d - a, c - b}, up[2][2] = {{top - a, top - d}, {top - b, top - c}};
+        V3<T> along_u[2] = {b - a, c - d}, along_v[2] = {d - a, c - b},
+              up[2][2] = {{top - a, top - d}, {top - b, top - c}};
         T sum[3][3] = {};
         for (int i = 0; i < 2; ++i)
             for (int j = 0; j < 2; ++j) {

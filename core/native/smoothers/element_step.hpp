@@ -2,8 +2,8 @@
 //
 // Corner k goes to c_k + s n_k/sqrt(|n_k|), centroid and outward normal of the triangle that the centroids of the three
 // faces at k make in the dual octahedron; the hex is scaled about its centroid to its old mean edge length and blended
-// with the old one by rho. Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2. Other kinds of cells: Vartziotis and
-// Himpel 2013, arXiv 1302.6066, the gradient flow of the volume.
+// with the old one by rho. Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2. Other kinds of cells: Vartziotis
+// and Himpel 2013, arXiv 1302.6066, the gradient flow of the volume.
 #pragma once
 
 #include "simd/simd_hexes.hpp"

@@ -40,7 +40,7 @@ KINDS = {
         [(0, 1, 3, 4), (1, 2, 0, 4), (2, 3, 1, 4), (3, 0, 2, 4)],
         _PYRAMID,
     ),
-    "tetrahedron": (np.concatenate([[[0, 0, 0]], _TETRAHEDRON.T]), [(0, 1, 2, 3)], _TETRAHEDRON),
+    "tetrahedron": (np.concatenate([[[0, 0, 0]], _TETRAHEDRON.T]), [(0, 1, 2, 3), (1, 2, 0, 3), (2, 0, 1, 3), (3, 1, 0, 2)], _TETRAHEDRON),
 }
 
 

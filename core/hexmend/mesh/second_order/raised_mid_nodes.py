@@ -12,10 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.optimize import minimize
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
-
 from hexmend.arrays import mask
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
@@ -121,6 +117,8 @@ class Patch:
     def _minimised(self, begin: np.ndarray, floors: np.ndarray) -> np.ndarray:
         """Minimise the barrier of floors (k,) from positions (f, 3); the unknowns are moves in edge lengths."""
 
+        from scipy.optimize import minimize  # not loaded with the doctor
+
         def barrier(moves: np.ndarray) -> tuple[float, np.ndarray]:
             value, slopes = self.barrier(begin + self._unit * moves.reshape(-1, 3), floors)
             return value, self._unit * slopes.ravel()
@@ -169,6 +167,9 @@ def raised_mid_nodes(
     positions : (f, 3) float64
         At which no hex has a lower least coefficient than as given, or one above the goal.
     """
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import connected_components
+
     free = np.append(~kept, False)  # the last for the number -1
     rows, columns = np.nonzero(low[:, None] & free[mid_nodes])
     halfway, region = points.copy(), low

@@ -27,15 +27,10 @@ template <class Target> class MultiNodePatch {
   public:
     MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const NodeStepSettings &settings,
                    const Target &target, std::int64_t first)
-        : points_(points),
-          hexes_(hexes),
-          slots_(slots),
-          nodes_(nodes),
-          settings_(settings),
-          step_(nodes.size()) {
+        : points_(points), hexes_(hexes), slots_(slots), nodes_(nodes), settings_(settings), step_(nodes.size()) {
         for (std::int64_t row = 0, end = hexes.size(); row < end; row = start_.back()) {
-            int count = alike(std::min<std::int64_t>(LANES, end - row),
-                              [&](int i) -> const Hex & { return hexes[row + i]; });
+            int count =
+                alike(std::min<std::int64_t>(LANES, end - row), [&](int i) -> const Hex & { return hexes[row + i]; });
             scales_.push_back(scales_of<Lanes>(target, first + row, count));
             start_.push_back(row + count);
         }
