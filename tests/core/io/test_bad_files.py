@@ -75,8 +75,6 @@ def test_compressed_files_are_called_compressed_whatever_their_names(name, tmp_p
             io.read(tmp_path / name)
 
 
-pytestmark = pytest.mark.slow
-
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/fuzz_readers.py"
 
 #: Formats of which each file is read in a process of its own, which takes its time.
@@ -86,6 +84,7 @@ APART = ["med", "vtkhdf"]
 @pytest.mark.parametrize(("names", "cases"), [
     ([*(name for name in FORMATS if name not in APART), "session"], 50), (APART, 4),
 ], ids=["here", "apart"])  # fmt: skip
+@pytest.mark.slow
 def test_a_spoilt_file_gives_a_mesh_or_one_clear_error(names, cases):
     words = ["--cases", str(cases), "--seed", "7", "--meshes", str(Path(__file__).with_name("files")), *names]
     done = run_python(SCRIPT, *words)

@@ -136,8 +136,6 @@ def test_hexes_of_very_different_sizes_reach_their_optimum(real_mesh):
     assert result.iterations < 100
 
 
-pytestmark = pytest.mark.slow
-
 SHORT = StoppingCriteria(max_iterations=80)
 seeds = st.integers(0, 2**32 - 1)
 goals = st.sampled_from(["shape", "scaled-jacobian"])
@@ -160,6 +158,7 @@ def turned(mesh, seed):
 @pytest.mark.slow
 @settings(max_examples=12)
 @given(st.sampled_from(sorted(FLAT)), goals, st.floats(0, 0.3), st.sampled_from([0.0, 0.3, "unlimited"]), seeds)
+@pytest.mark.slow
 def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, seed):
     mesh = turned(slid(FLAT[solid](), amplitude, seed), seed)
     result = smooth(mesh, Mend(goal=goal, boundary="slide", surface_tolerance=tolerance), SHORT)
@@ -172,6 +171,7 @@ def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, 
 
 @settings(max_examples=12)
 @given(st.sampled_from(sorted(SOLIDS)), goals, st.floats(0, 0.6), seeds)
+@pytest.mark.slow
 def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     sliding = SlidingBoundary(mesh)
@@ -185,6 +185,7 @@ def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amp
 
 
 @pytest.mark.parametrize("name", ["block_in.mesh"])
+@pytest.mark.slow
 def test_a_real_mesh_is_freed_within_its_tolerance(name, real_mesh):
     mesh = read(real_mesh(name))
     assert measure(mesh.points, mesh.hexes).n_inverted > 0
@@ -204,6 +205,7 @@ def rough(seed):
 
 
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.slow
 def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
     mesh = rough(seed)
     result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), StoppingCriteria(max_iterations=600))
