@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+
 from hexmend.arrays import mask
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
