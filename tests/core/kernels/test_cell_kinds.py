@@ -5,43 +5,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hexmend import kernels
+from hexmend.mesh.solid_cells import SOLID_KINDS
+from tests.core.solid_lattices import single
 
-ROOT3 = 3**0.5
-_TETRAHEDRON = np.array([[1, 0, 0], [0.5, ROOT3 / 2, 0], [0.5, ROOT3 / 6, (2 / 3) ** 0.5]]).T
-_WEDGE = np.array([[1, 0, 0], [0.5, ROOT3 / 2, 0], [0, 0, 1]]).T
-_PYRAMID = np.array([[1, 0, 0], [0, 1, 0], [0.5, 0.5, 0.5**0.5]]).T
-_HEX_CORNERS = [
-    (0, 3, 4, 1),
-    (1, 0, 5, 2),
-    (2, 1, 6, 3),
-    (3, 2, 7, 0),
-    (4, 7, 5, 0),
-    (5, 4, 6, 1),
-    (6, 5, 7, 2),
-    (7, 6, 4, 3),
-]
+
+def ideal_nodes(kind):
+    """Places of the nodes of an ideal cell."""
+    mesh = single(kind)
+    return mesh.points[mesh.elements[0, : kind.nodes]]
+
 
 #: Of each kind: nodes of the ideal cell, its corner tetrahedra, the edges of an ideal one as columns.
-KINDS = {
-    "hexahedron": (
-        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float),
-        _HEX_CORNERS,
-        np.eye(3),
-    ),
-    "wedge": (
-        np.array(
-            [[0, 0, 0], _WEDGE[:, 0], _WEDGE[:, 1], [0, 0, 1], _WEDGE[:, 0] + [0, 0, 1], _WEDGE[:, 1] + [0, 0, 1]]
-        ),
-        [(0, 1, 2, 3), (1, 2, 0, 4), (2, 0, 1, 5), (3, 5, 4, 0), (4, 3, 5, 1), (5, 4, 3, 2)],
-        _WEDGE,
-    ),
-    "pyramid": (
-        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0.5**0.5]]),
-        [(0, 1, 3, 4), (1, 2, 0, 4), (2, 3, 1, 4), (3, 0, 2, 4)],
-        _PYRAMID,
-    ),
-    "tetrahedron": (np.concatenate([[[0, 0, 0]], _TETRAHEDRON.T]), [(0, 1, 2, 3), (1, 2, 0, 3), (2, 0, 1, 3), (3, 1, 0, 2)], _TETRAHEDRON),
-}
+KINDS = {kind.name: (ideal_nodes(kind), kind.corners, kind.ideal) for kind in SOLID_KINDS}
 
 
 def row_of(nodes):

@@ -169,16 +169,6 @@ def test_inner_nodes_of_all_kinds_are_free(make):
     assert mesh.free.any()
 
 
-def test_figures_of_ideal_cells_are_1():
-    for mesh in (prisms(2), honeycomb(3)):
-        summary = mesh.quality()
-        assert [summary.hexes, summary.inverted, summary.invalid] == [0, 0, 0]
-        for one in summary.cells.values():
-            assert [one["q_min"], one["q_mean"], one["scaled_jacobian_min"]] == pytest.approx([1, 1, 1])
-        assert sum(one["count"] for one in summary.cells.values()) == mesh.n_elements
-    assert list(mixed(2).quality().cells) == ["hexahedron", "wedge", "pyramid", "tetrahedron"]
-
-
 def test_a_summary_counts_inverted_cells_by_kind():
     mesh = mixed(3)
     apex = int(mesh.cells[1].nodes[0, -1])
