@@ -9,8 +9,7 @@ from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_proble
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.curved_geometry import FACE_COLUMNS
-from hexmend.mesh.second_order.raised_mid_nodes import are_low, raised_mid_nodes
-from hexmend.optimise.linear_solvers import one_blas_thread
+from hexmend.mesh.second_order.valid_mid_nodes import are_low, valid_mid_nodes
 from hexmend.quality import corner_determinants
 from hexmend.quality.validity import Validity, certify
 from hexmend.terminal_text import count_phrase
@@ -48,13 +47,12 @@ class BentEdges(Problem):
                 break
             near, start = low.copy(), points.copy()
             was_invalid = _invalid(points, mesh, np.arange(mesh.n_hexes))
-            with one_blas_thread():
-                for hexes, nodes, positions in raised_mid_nodes(points, mesh.hexes, mesh.mid_nodes, low, kept, rings):
-                    near[hexes] = True
-                    points[nodes] = positions
-                    while (worse := _invalid(points, mesh, hexes) & ~was_invalid[hexes]).any():
-                        back = mesh.mid_nodes[hexes[worse]]
-                        points[back[back >= 0]] = start[back[back >= 0]]
+            for hexes, nodes, positions in valid_mid_nodes(points, mesh.hexes, mesh.mid_nodes, low, kept, rings):
+                near[hexes] = True
+                points[nodes] = positions
+                while (worse := _invalid(points, mesh, hexes) & ~was_invalid[hexes]).any():
+                    back = mesh.mid_nodes[hexes[worse]]
+                    points[back[back >= 0]] = start[back[back >= 0]]
             bad, some = _bad_between_corners(mesh, points), np.flatnonzero(near)
             low = mask(some[are_low(points, mesh.hexes[some], mesh.mid_nodes[some])], mesh.n_hexes)
         return mesh.rebuilt(points=points) if bad.sum() < given.sum() else mesh

@@ -139,7 +139,7 @@ def smooth(
                 run.close()
     finally:
         display.close()
-    run.raise_mid_nodes()
+    run.move_mid_nodes()
     return run.result()
 
 

@@ -82,7 +82,7 @@ class Run(Iterator[Iteration]):
         start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._raised: Mesh | None = None  # see `raise_mid_nodes`
+        self._with_valid_mid_nodes: Mesh | None = None  # see `move_mid_nodes`
         self._stage_runs = [self._stage_of(self._stages[0], 1, start, start)]
         self.start = replace(start, surface=self._stage_run.start_surface)
         self.history = [self.start.row()]
@@ -152,12 +152,12 @@ class Run(Iterator[Iteration]):
                 self._stage_run.end(Outcome.STOPPED)
             self.outcome = Outcome.STOPPED
 
-    def raise_mid_nodes(self) -> None:
+    def move_mid_nodes(self) -> None:
         """Move the mid-nodes of the result where hexes are invalid between sound corners; those of iterations stay."""
         mesh = self._result_mesh
         if mesh.mid_nodes is not None and self.best.quality.n_invalid:
-            raised = PROBLEMS["mid-nodes"].mend(mesh)
-            self._raised = None if raised is mesh else raised.with_element_target(mesh.element_target)
+            moved = PROBLEMS["mid-nodes"].mend(mesh)
+            self._with_valid_mid_nodes = None if moved is mesh else moved.with_element_target(mesh.element_target)
 
     @property
     def last(self) -> Iteration:
@@ -229,7 +229,7 @@ class Run(Iterator[Iteration]):
         if not self._kept_last:
             words.append(kept_message(self.best.number))
         words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
-        if self._raised is not None:
+        if self._with_valid_mid_nodes is not None:
             valid = count_phrase(self.best.quality.n_invalid - invalid, "hex", "hexes")
             words.append(f"Mid-nodes inside the mesh were moved, which made {valid} of second order valid.")
         target_q = self._target_q
@@ -246,8 +246,8 @@ class Run(Iterator[Iteration]):
 
     @property
     def _result_mesh(self) -> Mesh:
-        if self._raised is not None:
-            return self._raised
+        if self._with_valid_mid_nodes is not None:
+            return self._with_valid_mid_nodes
         return self.mesh.with_points(self.best.points).with_element_target(self._stage_run.target)
 
     @property
@@ -308,7 +308,7 @@ class Run(Iterator[Iteration]):
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
-        quality = None if self._raised is not None else self.best.quality
+        quality = None if self._with_valid_mid_nodes is not None else self.best.quality
         return summarise(self.mesh, self.start.quality), summarise(self._result_mesh, quality)
 
     def _stage_of(self, stage: Stage, number: int, start: Iteration, last: Iteration, *old: StageRun) -> StageRun:

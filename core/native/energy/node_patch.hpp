@@ -243,7 +243,7 @@ template <class T, class Target = Cubes> class NodePatch {
   private:
     static constexpr bool scaled = !std::is_same_v<Target, Cubes>;
 
-    // What a target adds to the terms of a tetrahedron: the size's share at the node's position.
+    // Addition of a target to the terms of a tetrahedron: the size's share at the node's position.
     struct Additional {
         SizeTerm<T> size;
     };

@@ -74,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
     mesh.topology.release_faces()  # few methods need them
     with FinishWriting():
         follow(smoothing, lambda iteration: _keep(checkpoints, mesh.replace(pinned=pinned), iteration))
-        smoothing.raise_mid_nodes()
+        smoothing.move_mid_nodes()
         result = smoothing.result()
         written = output.write(result.mesh.replace(pinned=pinned))
         checkpoints.remove()

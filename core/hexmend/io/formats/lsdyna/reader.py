@@ -35,7 +35,7 @@ _LOWER = {"ELEMENT_SHELL": {3: "triangle", 4: "quad"}, "ELEMENT_BEAM": {2: "line
 #: Lines of each element besides its own, by what follows the name of its keyword.
 _MORE_LINES = {"": 0, "_ORTHO": 2, "_THICKNESS": 1, "_BETA": 1, "_THICKNESS_BETA": 1, "_OFFSET": 1, "_ORIENTATION": 1}
 #: Field of the first node of elements that are not read, whose nodes stay.
-_HELD = {"ELEMENT_DISCRETE": 2, "ELEMENT_MASS": 1, "ELEMENT_SEATBELT": 2, "ELEMENT_INERTIA": 1}
+_HOLDING = {"ELEMENT_DISCRETE": 2, "ELEMENT_MASS": 1, "ELEMENT_SEATBELT": 2, "ELEMENT_INERTIA": 1}
 #: Keywords that no note mentions.
 _IGNORED = ("KEYWORD", "TITLE")
 
@@ -72,7 +72,7 @@ class _Model:
         self.elements: dict[str, list[np.ndarray]] = {}  # by kind; a row is an id, a part and nodes
         self.names: dict[int, str] = {}  # of parts
         self.sets: dict[str, dict[str, list[np.ndarray]]] = {"NODE": {}, "SOLID": {}, "SEGMENT": {}}
-        self.held: list[np.ndarray] = []
+        self.connected: list[np.ndarray] = []
         self.others: Counter[str] = Counter()
 
     def add(self, keyword: Keyword) -> None:
@@ -90,9 +90,9 @@ class _Model:
             self._add_set(keyword)
         elif name not in _IGNORED:
             self.others[f"*{name}"] += 1
-            first = next((field for one, field in _HELD.items() if name.startswith(one)), None)
+            first = next((field for one, field in _HOLDING.items() if name.startswith(one)), None)
             if first is not None:
-                self.held.append(keyword.cards(ELEMENT_COLUMNS).integers(first, first + 1 + (first == 2)).ravel())
+                self.connected.append(keyword.cards(ELEMENT_COLUMNS).integers(first, first + 1 + (first == 2)).ravel())
 
     def _add_elements(self, keyword: Keyword, base: str, option: str) -> None:
         if option not in _MORE_LINES:
@@ -166,14 +166,14 @@ class _Model:
         hexes = [block.nodes for block in blocks if block.kind == "hex"]
         sides = {name: _sides(hexes[0], node_ids, parts) for name, parts in self.sets["SEGMENT"].items() if hexes}
         sides = {name: rows for name, rows in sides.items() if len(rows)}
-        held = np.isin(node_ids, np.concatenate([*self.held, np.zeros(0, np.int64)]))
+        fixed = np.isin(node_ids, np.concatenate([*self.connected, np.zeros(0, np.int64)]))
         notes = []
         if self.others:
             notes.append(unread_note(f"other keywords ({some_names(quoted(one)[1:-1] for one in self.others)})"))
-        if held.any():
-            notes.append(f"{count_phrase(int(held.sum()), 'node')} of springs, masses and belts stay.")
+        if fixed.any():
+            notes.append(f"{count_phrase(int(fixed.sum()), 'node')} of springs, masses and belts stay.")
         joining = [one for one in self.others if one.startswith(("*CONTACT", "*CONSTRAINED"))]
-        fields, pinned = {CONTACT_CARDS: joining} if joining else {}, held if held.any() else None
+        fields, pinned = {CONTACT_CARDS: joining} if joining else {}, fixed if fixed.any() else None
         return Content(points, tuple(blocks), {ID: node_ids}, node_sets, sides, pinned, fields, tuple(notes))
 
     def _part(self, number: int) -> str:
@@ -190,7 +190,7 @@ class _Model:
 
 
 def _solids(nodes: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Which rows of solids, (k,) bool, are of each kind, and their nodes in VTK's order.
+    """Find the rows of solids, (k,) bool, that are of each kind, and their nodes in VTK's order.
 
     Nodes of tetrahedra, pyramids and wedges are repeated in the places of a hex: 1 2 3 4 4 4 4 4, 1 2 3 4 5 5 5 5 and
     1 2 3 4 5 5 6 6.
@@ -211,7 +211,7 @@ def _solids(nodes: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 def _lower(nodes: np.ndarray, base: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Which rows of shells or beams are of each kind, and their nodes; a triangle may repeat its last node."""
+    """Find the rows of shells or beams that are of each kind, and their nodes; a triangle may repeat its last node."""
     if base == "ELEMENT_BEAM":
         return {"line": (nodes.all(axis=1), nodes)}
     triangle = (nodes[:, 3] == 0) | (nodes[:, 3] == nodes[:, 2])

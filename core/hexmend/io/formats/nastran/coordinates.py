@@ -155,13 +155,13 @@ class NastranCoordinates:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
         new, given = self.grid.in_file(points), self.grid.given
         changed = ~(new == given)
-        held = np.abs(new - given) <= 0.5 * 10.0 ** (np.floor(np.log10(np.abs(given).max() or 1.0)) - _SMALL_DIGITS + 1)
+        same = np.abs(new - given) <= 0.5 * 10.0 ** (np.floor(np.log10(np.abs(given).max() or 1.0)) - _SMALL_DIGITS + 1)
         edits: list[tuple[int, int, bytes]] = []
         n_widened, exact = 0, True
         for node in np.flatnonzero(changed.any(axis=1)).tolist():
             lines = self._lines(int(self.grid.lines[node]) - 1)
             before = [text.decode("latin-1") for *_, text in lines]
-            which = changed[node] if is_large(before[0]) else changed[node] & ~held[node]
+            which = changed[node] if is_large(before[0]) else changed[node] & ~same[node]
             if not which.any():
                 continue
             values = [x if is_new else None for x, is_new in zip(new[node].tolist(), which, strict=True)]

@@ -66,7 +66,7 @@ class BulkModel:
         self._grids: list[Cards] = []
         self._default_system = 0
         self.systems = CoordinateSystems()
-        self._held: list[np.ndarray] = []  # numbers of grid points that cards hold which are not read
+        self._connected: list[np.ndarray] = []  # numbers of grid points that cards hold which are not read
         self._joining: list[str] = []
         self._elements: dict[str, list[np.ndarray]] = {}  # by kind; a row is a line, an id, a property and nodes
         self._other_cards: dict[str, int] = {}
@@ -83,7 +83,7 @@ class BulkModel:
         first = NODES_OF_CARD.get(cards.name)
         if first is not None:
             fields = cards.fields(first, int((cards.ends - cards.begins).max()))
-            self._held.append(fields[np.strings.isdigit(fields)].astype(np.int64))
+            self._connected.append(fields[np.strings.isdigit(fields)].astype(np.int64))
         if cards.name in JOINING or first is not None:
             self._joining.append(cards.name)
 
@@ -150,11 +150,11 @@ class BulkModel:
                 n_unplaced, "grid point that no element uses is", "grid points that no element uses are"
             )
             notes.append(f"{words} in a coordinate system that the file does not have: read as x, y and z.")
-        held = np.isin(node_ids, np.concatenate([*self._held, list(self.systems.grid_points)]))
-        if self._held and held.any():
-            notes.append(f"{count_phrase(int(held.sum()), 'grid point')} of {some_names(self._joining)} stay.")
+        fixed = np.isin(node_ids, np.concatenate([*self._connected, list(self.systems.grid_points)]))
+        if self._connected and fixed.any():
+            notes.append(f"{count_phrase(int(fixed.sum()), 'grid point')} of {some_names(self._joining)} stay.")
         fields = {CONTACT_CARDS: self._joining} if self._joining else {}
-        pinned = held if held.any() else None
+        pinned = fixed if fixed.any() else None
         return Content(grid.points, tuple(blocks), {ID: node_ids}, {}, {}, pinned, fields, tuple(notes))
 
 

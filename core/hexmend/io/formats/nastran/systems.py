@@ -90,7 +90,7 @@ class CoordinateSystems:
         z = on_z - origin
         y = np.cross(z, in_xz - origin)
         if not (np.linalg.norm(z) > 0 and np.linalg.norm(y) > 0):
-            raise cards.error(at, "has three points on one line: expected an origin, a point on z and one beside z")
+            raise cards.error(at, "has three points on one line: expected an origin, a point on z and one next to z")
         z, y = z / np.linalg.norm(z), y / np.linalg.norm(y)
         frame = self._frames[number] = origin, np.array([np.cross(y, z), y, z])
         return frame

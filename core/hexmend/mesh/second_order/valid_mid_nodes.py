@@ -90,7 +90,7 @@ class Patch:
         total = np.bincount(places, by_node.ravel(), minlength=self._points.size).reshape(-1, 3)
         return float(value), total[self._free]
 
-    def raised(self, halfway: np.ndarray) -> np.ndarray:
+    def improved(self, halfway: np.ndarray) -> np.ndarray:
         """Find positions (f, 3) at which no hex is lower than as given; they begin as given, or at others (f, 3)."""
         floors = self.least(self.start)
         x = self.without_lower(halfway)
@@ -141,7 +141,7 @@ def are_low(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.
     return least_coefficients(points, hexes, mid_nodes) < _GOAL * _sizes(points, hexes)[:, 0]
 
 
-def raised_mid_nodes(
+def valid_mid_nodes(
     points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, low: np.ndarray, kept: np.ndarray, rings: int | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Find positions of mid-nodes around hexes that raise their least det J.
@@ -186,4 +186,4 @@ def raised_mid_nodes(
         found = Patch(points, hexes[patch], mid_nodes[patch], free)
         start = halfway[found.nodes]
         minimise = rings is not None and patch.size <= _LARGEST_PATCH
-        yield patch, found.nodes, found.raised(start) if minimise else found.without_lower(start)
+        yield patch, found.nodes, found.improved(start) if minimise else found.without_lower(start)

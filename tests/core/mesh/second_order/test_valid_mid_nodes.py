@@ -8,7 +8,7 @@ from hexmend.doctor import repair
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.second_order.bernstein import coefficients, gradient, least_coefficients
 from hexmend.mesh.second_order.mid_node_order import in_order
-from hexmend.mesh.second_order.raised_mid_nodes import Patch
+from hexmend.mesh.second_order.valid_mid_nodes import Patch
 from hexmend.quality import summarise_second_order
 from hexmend.quality.validity import Validity, certify, jacobian_bounds
 from tests.core.curved_shell import curved_shell
@@ -103,7 +103,7 @@ def test_a_patch_is_raised_without_a_lower_hex():
     free = np.zeros(mesh.n_nodes + 1, bool)
     free[inner_mid_nodes(mesh)] = True
     patch = Patch(mesh.points, mesh.hexes, mesh.mid_nodes, free)
-    found = patch.raised(patch.start)
+    found = patch.improved(patch.start)
     assert (patch.least(found) >= patch.least(patch.start)).all()
     assert patch.least(found).min() > max(patch.least(patch.start).min(), 0)
 
