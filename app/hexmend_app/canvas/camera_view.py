@@ -16,7 +16,7 @@ from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.picture.camera import CameraPose, Vector
 from hexmend_app.picture.cut_shapes import Plane
 from hexmend_app.scene.camera import steering
-from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
+from hexmend_app.scene.camera.vtk_pose import pose_of
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.theme.style import set_help
 from hexmend_app.translation import tr
@@ -101,8 +101,7 @@ class CameraView(QWidget):
 
     def set_pose(self, pose: CameraPose) -> None:
         """Set the camera pose."""
-        self.panes.camera_controller.up = pose.axis
-        self._move_camera(partial(apply_pose, self.viewport.camera, pose))
+        self._move_camera(partial(self.panes.camera_controller.apply, pose))
 
     @property
     def up(self) -> str:

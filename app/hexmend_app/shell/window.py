@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 #: Milliseconds within which the panels show an iteration.
 _DELAY = 200
 
-#: Layouts around a label, each of which asks the next one; they come before painting, so that all is painted once.
-_NESTED_LAYOUTS = 4
-
 
 class Window(QMainWindow):
     """Main window and host of all features.
@@ -242,7 +239,8 @@ class Window(QMainWindow):
             self._counts.refresh(self.session)
         self.setWindowTitle(tr("{name}[*] – Hexmend", name=document.name) if document.is_open else tr("Hexmend"))
         self.setWindowModified(self.session.modified)
-        for _ in range(_NESTED_LAYOUTS):
+        # Four layouts are around a label, each of which asks the next one: all is painted once, afterwards.
+        for _ in range(4):
             QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:

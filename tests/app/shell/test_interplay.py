@@ -10,6 +10,7 @@ from PySide6.QtTest import QTest
 from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.feature import MENUS
 from hexmend_app.picture import Box, Cut, Plane
+from hexmend_app.shell import window as shell_window
 from hexmend_app.state.mesh.document import MeasuredMesh
 from scripts.write_keys import as_markdown
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
@@ -125,6 +126,7 @@ def test_an_iteration_is_drawn_at_once_and_panels_follow(window, qtbot, monkeypa
     monkeypatch.setattr(window.canvas, "draw", lambda frame, live: calls.append("view"))
     monkeypatch.setattr(window.features["help"], "refresh", lambda: calls.append("panels"))
     monkeypatch.setattr(run, "iterating", True)
+    monkeypatch.setattr(shell_window, "_DELAY", 2_000)  # of the panels, which cannot follow meanwhile on a busy machine
     for _ in range(2):
         document.preview(MeasuredMesh.of(document.now.mesh))
         run.iterated.emit(None)

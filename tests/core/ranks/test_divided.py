@@ -53,6 +53,8 @@ def reaches_the_figures_of_one_process(given, source, out, ranks):
     for time_, mesh in ("before", read(source)), ("after", read(out)):
         expected = summarise(mesh).to_dict()
         assert report[time_].keys() == expected.keys()
+        for kind, of_kind in expected.pop("cells").items():
+            assert report[time_]["cells"][kind] == pytest.approx(of_kind, rel=1e-12, abs=1e-12), kind
         for name, value in expected.items():
             assert report[time_][name] == (value and pytest.approx(value, rel=1e-12, abs=1e-12)), name
 

@@ -10,10 +10,11 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkBoundingBox
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
+from hexmend_app.picture.camera import CameraPose
 from hexmend_app.scene.camera.directions import Vector, look_from
 from hexmend_app.scene.camera.fitting import fit
 from hexmend_app.scene.camera.flight import HEX_DISTANCE, PATCH_DISTANCE, Flight
-from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 
 
 class CameraTarget(Protocol):
@@ -85,6 +86,11 @@ class CameraController:
         """Values of the camera that panning and zooming change, but rotation does not."""
         camera = self.camera
         return *camera.GetFocalPoint(), round(camera.GetDistance(), 9), camera.GetParallelScale()
+
+    def apply(self, pose: CameraPose) -> None:
+        """Take a pose, which stays where it is even if it happens to fit the mesh into the view."""
+        self.up, self._fitted = pose.axis, ()
+        apply_pose(self.camera, pose)
 
     def look_along(self, direction: str | Vector) -> None:
         """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector."""

@@ -40,7 +40,7 @@ def read(path: Path) -> Mesh:
     """
     text = _COMMENT.sub(b"", read_text_bytes(path).replace(b"\r\n", b"\n"))
     found = [(one[1].decode("latin-1"), one[2], one[3]) for one in _BLOCK.finditer(text)]
-    nodes = [_rows(path, name, body, 4) for name, _, body in found if name == "Nodes"]
+    nodes = [_rows(path, name, body, 4, numbers=1) for name, _, body in found if name == "Nodes"]
     if not nodes:
         raise FileError(path, "has no block of Nodes with its End", check_suffix("a model part of Kratos"))
     if text.count(b"Begin ") != text.count(b"End "):
@@ -54,7 +54,8 @@ def read(path: Path) -> Mesh:
         if kind is None:
             unread[f"{name} {title.decode('latin-1').strip()}"] += 1
             continue
-        rows = _rows(path, name, body, 2 + node_count(kind)).astype(np.int64)
+        width = 2 + node_count(kind)
+        rows = _rows(path, name, body, width, numbers=width).astype(np.int64)
         groups = {f"properties {one}": np.flatnonzero(rows[:, 1] == one) for one in np.unique(rows[:, 1]).tolist()}
         groups = groups if len(groups) > 1 or "properties 0" not in groups else {}
         blocks.append(Block(kind, numbering.find_ids(path, ids, rows[:, 2:], "node"), {ID: rows[:, 0].copy()}, groups))
@@ -64,12 +65,15 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, Content(points, merge_other_kinds(blocks), {ID: ids}, notes=notes, unread=unread))
 
 
-def _rows(path: Path, name: str, body: bytes, width: int) -> np.ndarray:
-    """Rows of the numbers of a block, (k, width) float64."""
+def _rows(path: Path, name: str, body: bytes, width: int, numbers: int) -> np.ndarray:
+    """Rows of the numbers of a block, (k, width) float64, of which the first columns are whole numbers."""
     values = parse_numbers(body, np.float64)
-    if values is None or values.size % width or not np.isfinite(values).all() or (np.abs(values) > 2.0**62).any():
+    if values is None or values.size % width or not np.isfinite(values).all():
         raise FileError(path, f"a block of {quoted(name)} holds no rows of {width} numbers", DAMAGED)
-    return values.reshape(-1, width)
+    rows = values.reshape(-1, width)
+    if (np.abs(rows[:, :numbers]) > 2.0**62).any():
+        raise FileError(path, f"a block of {quoted(name)} has numbers that are too large", DAMAGED)
+    return rows
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -56,12 +56,20 @@ def summarise_part(part: RankPart, points: np.ndarray) -> Summary:
     squares = ranks.sum(float(np.sum(1 / np.square(q[q > 0]))))
     lowest = least_jacobian(points, np.ascontiguousarray(hexes[own])) if own.any() else 1.0
     total = ranks.sum(float(np.square(quality.eta[own]).sum())) if not inverted else np.inf
+    of_hexes = {
+        "count": m,
+        "inverted": inverted,
+        "invalid": ranks.sum(int(np.count_nonzero(quality.invalid & own))),
+        "q_min": least,
+        "q_mean": mean,
+        "scaled_jacobian_min": ranks.least(float(quality.scaled_jacobian[own].min(initial=np.inf))),
+    }
     return Summary(
         hexes=m,
         nodes=ranks.sum(int(np.count_nonzero(part.owned))),
         free_nodes=ranks.sum(int(np.count_nonzero(part.mesh.free & part.owned))),
         inverted=inverted,
-        invalid=ranks.sum(int(np.count_nonzero(quality.invalid & own))),
+        invalid=int(of_hexes["invalid"]),
         min_jacobian=ranks.least(lowest),
         locked_inverted=ranks.sum(int(np.count_nonzero(locked & own))),
         q_min=least,
@@ -69,8 +77,9 @@ def summarise_part(part: RankPart, points: np.ndarray) -> Summary:
         q_max=ranks.greatest(float(q.max(initial=-np.inf))),
         q_std=float(np.sqrt(ranks.sum(float(np.square(q - mean).sum())) / m)),
         q_norm=float(np.sqrt(m / squares)) if least > 0 else 0.0,
-        scaled_jacobian_min=ranks.least(float(quality.scaled_jacobian[own].min(initial=np.inf))),
+        scaled_jacobian_min=of_hexes["scaled_jacobian_min"],
         objective=total if np.isfinite(total) else None,
+        cells={"hexahedron": of_hexes},
     )
 
 
