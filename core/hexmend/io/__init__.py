@@ -3,7 +3,7 @@
 Every module of `hexmend.io.formats` is imported here and registers its formats in FORMATS.
 
 >>> sorted(FORMATS)[:4]
-['abaqus', 'cgns', 'exodus', 'gmsh']
+['abaqus', 'ansys', 'avsucd', 'cgns']
 """
 
 from __future__ import annotations
