@@ -16,7 +16,7 @@ from benchmarks.window.windows import draw, end_run, measure_meshes, report, run
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
-from hexmend.smoothers.local.single_node import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.picture import Cut, CutStyle
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.shell.window import Window

@@ -14,7 +14,7 @@ from benchmarks.window.windows import draw, measure_meshes, report, run_event_lo
 from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.laplacian.laplacian import Laplacian
-from hexmend.smoothers.local.single_node import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.history import LIMIT
 

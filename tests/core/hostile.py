@@ -19,7 +19,7 @@ from hexmend.mesh.fixing import fix_outside, with_pinned
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, locked_hexes, rank_worst
-from hexmend.smoothers.local.single_node import partition_patches
+from hexmend.smoothers.local.patch import partition_patches
 from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid, scrambled
 

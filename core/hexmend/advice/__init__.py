@@ -14,6 +14,6 @@ Worse than at the start: inverted 0 → 12, invalid 0 → 12, q min 0.2522 → 0
 """
 
 from hexmend.advice.advice import Advice, advise
-from hexmend.advice.situation import Suggestion
+from hexmend.advice.suggestion import Suggestion
 
 __all__ = ["Advice", "Suggestion", "advise"]

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.advice.rules import RULES
-from hexmend.advice.situation import Situation, Suggestion
+from hexmend.advice.situation import Situation
+from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, Result
 from hexmend.layers import describe_losses
 from hexmend.quality import describe_regressions

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from hexmend.advice.situation import Situation, Suggestion
+from hexmend.advice.situation import Situation
+from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import Optimiser

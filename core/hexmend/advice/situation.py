@@ -1,11 +1,8 @@
-"""State of a run that ended, which the rules for suggestions examine.
-
-A suggestion for the next run.
-"""
+"""State of a run that ended, which the rules for suggestions examine."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -15,58 +12,12 @@ from hexmend.boundary import freed_by_sliding
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.periodic_sets import nodes_in_set
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked_hexes
 from hexmend.smoothers import METHODS, Smoother
-
-
-@dataclass(frozen=True, eq=False)
-class Suggestion:
-    """A run to try next.
-
-    Parameters
-    ----------
-    title : str
-        A few words, for a button.
-    text : str
-        Effect and cost, as sentences.
-    gain : {"inverted", "invalid", "objective", "q_min", "q_norm", "energy", "figures"}
-        The figure of `Summary` that improves, or at least does not fall if `undo` is True; "energy" is the sum of
-        eta(H)^p with the method's own p; "figures": of q min, q mean and the minimum scaled Jacobian none falls and at
-        least one rises.
-    smoother : Smoother
-        The method with its parameters.
-    stop : StoppingCriteria
-        Its limits.
-    undo : bool
-        True if the last run is to be undone first.
-    unpin : (k,) int
-        Nodes to be unpinned first.
-    rules : MotionRules, optional
-        Rules of motion for the run; None for those of the last run.
-    widen : bool
-        True if the part of the mesh to which the last run was limited is to be larger.
-    """
-
-    title: str
-    text: str
-    gain: str
-    smoother: Smoother
-    stop: StoppingCriteria = field(default_factory=StoppingCriteria)
-    undo: bool = False
-    unpin: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    rules: MotionRules | None = None
-    widen: bool = False
-
-    @property
-    def releases(self) -> bool:
-        """True if nodes that were fixed in the last run are free in this one."""
-        return bool(self.unpin.size) or self.rules is not None or self.widen
-
 
 #: Over the last quarter of its iterations a run still gains if the objective's excess over that of cubes falls by more
 #: than this share ...

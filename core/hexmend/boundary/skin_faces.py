@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import boundary_faces_in_sets
+from hexmend.mesh.rules.named_sets import boundary_faces_in_sets
 
 
 class SkinFaces(NamedTuple):

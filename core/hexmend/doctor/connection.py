@@ -18,7 +18,7 @@ from hexmend.mesh.collapsed_hexes import are_flat, has_repeated_node, keep_hexes
 from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import left_handed_are, left_handed_hexes, mirror_hexes, parts_of
-from hexmend.mesh.topology.components import face_parity
+from hexmend.mesh.topology.face_parity import face_parity
 from hexmend.quality import corner_determinants
 from hexmend.terminal_text import count_phrase
 

@@ -17,7 +17,8 @@ from hexmend.mesh.collapsed_hexes import has_repeated_node, keep_hexes, renumber
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import solid_blocks
-from hexmend.mesh.topology.components import close_pairs, components
+from hexmend.mesh.topology.close_pairs import close_pairs
+from hexmend.mesh.topology.components import components
 from hexmend.terminal_text import count_phrase
 
 

@@ -4,7 +4,8 @@ from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import energies, objective
 from hexmend.energy.mesh_energy import MeshEnergy
 from hexmend.energy.motion import Motion
-from hexmend.energy.norm import POLICIES, SQUARES, AdaptiveDelta, DeltaPolicy, FixedDelta, ObjectiveNorm
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.energy.regularisation import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.sparsity import BlockSparsity
 
 __all__ = [

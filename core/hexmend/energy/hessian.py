@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from hexmend.energy.assembled_hessian import AssembledHessian, SymmetricOperator
+from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.kernels import assembly, conjugate_gradients, threads
 from hexmend.kernels import objective as kernels
 

@@ -16,8 +16,9 @@ from hexmend.energy.hessian import Hessian
 from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.motion import HessianReduction, Motion
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.energy.sparsity import BlockSparsity, Workspace
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.target import TargetScales
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import objective as kernels
 from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh

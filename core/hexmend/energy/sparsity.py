@@ -1,14 +1,9 @@
-"""Sparsity pattern of an assembled Hessian: pairs of free nodes that share a hex, and the order of nodes.
-
-Memory for temporary arrays, which is used again by whoever needs it next.
-"""
+"""Sparsity pattern of an assembled Hessian: pairs of free nodes that share a hex, and the order of nodes."""
 
 from __future__ import annotations
 
 import copy
 import itertools
-import math
-import threading
 from collections.abc import Callable
 from functools import cached_property
 
@@ -16,60 +11,13 @@ import numpy as np
 
 from hexmend.arrays import index_of
 from hexmend.energy.ranks import ONE_RANK, Ranks
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import LANES, conjugate_gradients, ordering, release_free_memory
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
 from hexmend.kernels.conjugate_gradients import BlockPattern, CoarsePattern
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
-
-
-class Workspace(threading.local):
-    """Memory of one thread, in which one array is at a time: memory that has been touched before is faster.
-
-    Examples
-    --------
-    >>> workspace = Workspace()
-    >>> first = workspace.array((4, 3), np.float64)
-    >>> second = workspace.array((20,), np.float32)
-    >>> second.dtype, np.shares_memory(first, second)
-    (dtype('float32'), True)
-
-    An array that is taken is no longer the workspace's, until it is given back.
-
-    >>> taken = workspace.take((20,), np.float32)
-    >>> np.shares_memory(taken, workspace.array((4, 3), np.float64))
-    False
-    >>> workspace.give(taken)
-    >>> np.shares_memory(taken, workspace.array((10, 2), np.float32))
-    True
-    """
-
-    def __init__(self) -> None:
-        self._bytes = np.empty(0, np.uint8)
-
-    def array(self, shape: tuple[int, ...], dtype: type) -> np.ndarray:
-        """Return an array of a shape and type, with any values; the array of an earlier call is no longer valid."""
-        size = math.prod(shape) * np.dtype(dtype).itemsize
-        if self._bytes.size < size:
-            self.release()  # before there is more
-            self._bytes = np.empty(size, np.uint8)
-        return self._bytes[:size].view(dtype).reshape(shape)
-
-    def take(self, shape: tuple[int, ...], dtype: type) -> np.ndarray:
-        """Return an array as `array` does, whose memory is the caller's from then on."""
-        taken = self.array(shape, dtype)
-        self.release()
-        return taken
-
-    def give(self, array: np.ndarray) -> None:
-        """Take over the memory of an array that nobody uses any more, in place of the own."""
-        self._bytes = array.reshape(-1).view(np.uint8)
-
-    def release(self) -> None:
-        """Free the memory until an array is wanted again; the last one is no longer valid."""
-        self._bytes = np.empty(0, np.uint8)
-
 
 #: Numbers of slots from which on they are divided into 2, 4 and 8 parts that threads solve in parallel.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))

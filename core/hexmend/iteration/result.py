@@ -12,7 +12,8 @@ import numpy as np
 from hexmend.boundary import Departures, SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm, SurfaceObjective
 from hexmend.hooks import hook
-from hexmend.iteration.stopping import ActiveSet, Outcome, StoppingCriteria
+from hexmend.iteration.step import ActiveSet, Outcome
+from hexmend.iteration.stopping import StoppingCriteria
 from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions

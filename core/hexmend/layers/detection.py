@@ -15,7 +15,7 @@ from hexmend.errors import MeshError
 from hexmend.layers.walls import Layers, lateral_lengths, layers_of_columns, walk_columns
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import nodes_in_set
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.quality import ElementQuality
 from hexmend.quality.measure import corner_determinants
 from hexmend.target.sheets import recovered_lengths

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 import numpy as np
@@ -43,30 +43,48 @@ def with_collapsed_converted(mesh: Mesh) -> tuple[Mesh, str]:
     str
         Sentence about the change; "" for none.
     """
-    some = np.flatnonzero(has_repeated_node(mesh.hexes))
-    if mesh.mid_nodes is not None:
-        some = some[(mesh.mid_nodes[some] < 0).all(axis=1)]
     cells, gone = [], np.zeros(mesh.n_hexes, dtype=bool)
-    first = (mesh.hexes[some, :, None] == mesh.hexes[some, None, :]).argmax(axis=2)
-    patterns, which = np.unique(first, axis=0, return_inverse=True)
-    for i, pattern in enumerate(patterns.tolist()):
-        found = _solid(pattern)
-        if found is None:
-            continue
-        kind, places = found
-        rows = some[which.reshape(-1) == i]
-        rows = rows[~are_flat(mesh.points, padded(SOLID_BLOCKS[kind], mesh.hexes[rows][:, places]))]
+    for kind, rows, nodes in collapsed_solids(mesh.hexes):
+        kept = ~are_flat(mesh.points, padded(SOLID_BLOCKS[kind], nodes))
+        if mesh.mid_nodes is not None:
+            kept &= (mesh.mid_nodes[rows] < 0).all(axis=1)
+        rows, nodes = rows[kept], nodes[kept]
         gone[rows] = True
         data = {name: values[rows] for name, values in mesh.hex_data.items()}
         sets = renumbered_sets(mesh.hex_sets, index_of(rows, mesh.n_hexes))
         if rows.size:
-            cells.append(Cells(kind, mesh.hexes[rows][:, places], data, sets))
+            cells.append(Cells(kind, nodes, data, sets))
     if not cells:
         return mesh, ""
     counts = {kind: sum(len(block.nodes) for block in cells if block.kind == kind) for kind in _WORDS}
     listed = ", ".join(count_phrase(count, *_WORDS[kind]) for kind, count in counts.items() if count)
     text = f"{count_phrase(int(gone.sum()), 'hex is', 'hexes are')} collapsed, and read as {listed}."
     return keep_hexes(mesh.replace(cells=(*mesh.cells, *cells)), ~gone), text
+
+
+def collapsed_solids(hexes: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Find the hexes whose repeated nodes make wedges, pyramids or tetrahedra of them.
+
+    Parameters
+    ----------
+    hexes : (m, 8) int
+
+    Yields
+    ------
+    kind : str
+        Kind of the cells of a form.
+    rows : (k,) int64
+        Hexes of this form.
+    nodes : (k, 4 to 6) int
+        Their nodes in VTK's order.
+    """
+    some = np.flatnonzero(has_repeated_node(hexes))
+    first = (hexes[some, :, None] == hexes[some, None, :]).argmax(axis=2)
+    patterns, which = np.unique(first, axis=0, return_inverse=True)
+    for i, pattern in enumerate(patterns.tolist()):
+        if (found := _solid(pattern)) is not None:
+            rows = some[which.reshape(-1) == i]
+            yield found[0], rows, hexes[rows][:, found[1]]
 
 
 def has_repeated_node(hexes: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import nodes_in_set, set_names
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -121,7 +121,7 @@ def fixed_sets(mesh: Mesh) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        In the order of `hexmend.mesh.rules.periodic_sets.set_names`; sets without a node are left out.
+        In the order of `hexmend.mesh.rules.named_sets.set_names`; sets without a node are left out.
     """
     nodes = {name: nodes_in_set(mesh, name) for name in set_names(mesh)}
     return tuple(name for name, members in nodes.items() if len(members) and mesh.immovable[members].all())

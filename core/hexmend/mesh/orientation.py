@@ -12,7 +12,8 @@ from hexmend.kernels import elements, faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 from hexmend.mesh.second_order.mid_node_order import in_order
-from hexmend.mesh.topology.components import components_of_cells, face_parity
+from hexmend.mesh.topology.components import components_of_cells
+from hexmend.mesh.topology.face_parity import face_parity
 from hexmend.terminal_text import count_phrase
 
 #: Corners, and faces, of a hex whose lower and upper face are exchanged.

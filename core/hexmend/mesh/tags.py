@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.errors import ParameterError
 from hexmend.mesh.fields import as_numbers, as_set
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import set_names, unknown_set
+from hexmend.mesh.rules.named_sets import set_names, unknown_set
 
 
 def add_set(

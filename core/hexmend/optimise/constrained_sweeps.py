@@ -16,7 +16,7 @@ from hexmend.energy import MeshEnergy
 from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.topology import Topology
-from hexmend.optimise.floors.movable_hexes import Region
+from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import LEAST_EIGENVALUE
 
 #: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).

@@ -8,7 +8,7 @@ from hexmend.arrays import find_rows, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import nodes_in_set
+from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.rules.two_dimensional import EMPTY, WEDGE
 from hexmend.padding.inserted_layer import CrossingError, Sheet
 

@@ -10,7 +10,7 @@ from hexmend.arrays import mask
 from hexmend.errors import MeshError
 from hexmend.mesh.fields import as_numbers
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import nodes_in_set, set_names, unknown_set
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names, unknown_set
 from hexmend.mesh.solid_cells import centres, solid_blocks
 from hexmend.mesh.validation import as_reals
 from hexmend.quality.mesh_quality import measure_mesh

@@ -18,7 +18,8 @@ from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.mesh.solid_cells import nouns
 from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
-from hexmend.run.messages import describe_change, interface_message, invalid_phrase, kept_message, name_invalid
+from hexmend.run.interface_messages import interface_message
+from hexmend.run.messages import describe_change, invalid_phrase, kept_message, name_invalid
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun

@@ -13,7 +13,7 @@ from hexmend.energy import MeshEnergy, Motion, ObjectiveNorm
 from hexmend.energy.barriers.floor_barrier import FloorBarrier
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.linear_motion import LinearMotion
-from hexmend.optimise.floors.movable_hexes import Region
+from hexmend.optimise.floors.region import Region
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.energy.projected import projected_energy
 from tests.core.grids import grid, scrambled

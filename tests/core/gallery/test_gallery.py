@@ -13,7 +13,7 @@ from hexmend.doctor import examine
 from hexmend.gallery import GALLERY, make
 from hexmend.gallery.aeroplane import FUSELAGE, TAILPLANE, WINGS
 from hexmend.gallery.five_side import DIVISIONS
-from hexmend.gallery.layered import kershaw_map
+from hexmend.gallery.kershaw import kershaw_map
 from hexmend.gallery.pentagon import CORNERS, corner_angles, fan, pair_triangles, pentagon, subdivide
 from hexmend.gallery.plane import BOX
 from hexmend.target import given_lengths

@@ -9,7 +9,7 @@ from hexmend import FileError, read_surface
 from hexmend.boundary.closest_point import triangulate
 from hexmend.io.surfaces import SURFACE_FORMATS
 from hexmend.io.surfaces.read import merge_points
-from hexmend.mesh.topology.components import LATTICE_FREE_DIRECTION
+from hexmend.mesh.topology.close_pairs import LATTICE_FREE_DIRECTION
 from tests.core.io.vtk_writers import by_vtk
 
 pv = pytest.importorskip("pyvista")

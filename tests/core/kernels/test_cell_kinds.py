@@ -54,12 +54,21 @@ def energies(points, rows, about, delta=0.0):
     return np.array([eta(shapes(points, row, of), delta).mean() - 1 for row, of in zip(rows, about, strict=True)])
 
 
-def gradient(points, rows, delta, norm):
-    shares = np.empty((len(rows), 8, 3))
-    kernels.objective.gradient(points, rows, delta, norm, np.zeros(len(rows), np.uint8), shares)
-    total = np.zeros_like(points)
+def at_nodes(points, rows, add):
+    """What `add` adds to the nodes of each cell, summed at the nodes."""
+    shares, total = np.zeros((len(rows), 8, 3)), np.zeros_like(points)
+    add(shares)
     np.add.at(total, rows, shares)
     return total
+
+
+def check_derivatives(points, value, slopes, product):
+    """Compare slopes and the product of second derivatives and a direction with differences."""
+    way, step = np.random.default_rng(3).standard_normal(points.shape), 1e-6
+    ahead, behind = points + step * way, points - step * way
+    assert_allclose((slopes(points) * way).sum(), (value(ahead) - value(behind)) / (2 * step), rtol=1e-6)
+    difference = (slopes(ahead) - slopes(behind)) / (2 * step)
+    assert_allclose(product(way), difference, atol=1e-5 * np.abs(difference).max())
 
 
 def test_the_ideal_cells_are_perfect_and_their_figures_are_those_of_the_formulas():
@@ -86,24 +95,25 @@ def test_energies_and_their_derivatives(delta):
     found = np.empty(len(rows))
     kernels.objective.energies(points, rows, delta, 1.0, np.zeros(len(rows), np.uint8), found)
     assert_allclose(found, np.maximum(energies(points, rows, about, delta), 0), atol=1e-13)
-    rng = np.random.default_rng(3)
-    direction = rng.standard_normal(points.shape)
-    step = 1e-6
+    none = np.zeros(len(rows), np.uint8)
     for norm in ((1.0, 0.0), (2.0, 0.0)):  # with an offset of 1 the power is cut off at 0
-
-        def value(at, p=norm[0]):
-            return ((energies(at, rows, about, delta) + 1) ** p).sum()
-
-        slope = (value(points + step * direction) - value(points - step * direction)) / (2 * step)
-        assert_allclose((gradient(points, rows, delta, norm) * direction).sum(), slope, rtol=1e-7)
-        shares = np.empty((len(rows), 8, 3))
-        kernels.objective.hessian_product(
-            points, rows, rows, direction, delta, norm, np.zeros(len(rows), np.uint8), shares
+        check_derivatives(
+            points,
+            lambda at, p=norm[0]: ((energies(at, rows, about, delta) + 1) ** p).sum(),
+            lambda at, norm=norm: at_nodes(
+                at, rows, lambda to: kernels.objective.gradient(at, rows, delta, norm, none, to)
+            ),
+            lambda way, norm=norm: hessian_product(points, rows, way, delta, norm),
         )
-        product = np.zeros_like(points)
-        np.add.at(product, rows, shares)
-        ahead, behind = (gradient(points + s * step * direction, rows, delta, norm) for s in (1, -1))
-        assert_allclose(product, (ahead - behind) / (2 * step), atol=2e-6 * np.abs(product).max())
+
+
+def hessian_product(points, rows, way, delta, norm, target=None):
+    none = np.zeros(len(rows), np.uint8)
+    return at_nodes(
+        points,
+        rows,
+        lambda to: kernels.objective.hessian_product(points, rows, rows, way, delta, norm, none, to, target),
+    )
 
 
 @pytest.mark.parametrize("targeted", [False, True])
@@ -186,10 +196,7 @@ def test_the_assembled_hessian_is_that_of_the_product(norm, targeted):
         lambda shares, off, own: kernels.assembly.assemble(points, delta, norm, none, shares, off, own, target),
     )
     direction = np.random.default_rng(7).standard_normal(points.shape)
-    shares = np.empty((len(rows), 8, 3))
-    kernels.objective.hessian_product(points, rows, rows, direction, delta, norm, none, shares, target)
-    product = np.zeros_like(points)
-    np.add.at(product, rows, shares)
+    product = hessian_product(points, rows, direction, delta, norm, target)
     assert_allclose(matrix @ direction.ravel(), product.ravel(), atol=1e-11 * np.abs(matrix).max())
 
 
@@ -209,22 +216,14 @@ def test_floors_and_their_derivatives(targeted):
         return values.sum()
 
     def slopes(at):
-        shares = np.zeros((len(rows), 8, 3))
-        kernels.floor_barrier.add_gradient(at, rows, floors, none, shares, target)
-        total = np.zeros_like(at)
-        np.add.at(total, rows, shares)
-        return total
+        return at_nodes(at, rows, lambda to: kernels.floor_barrier.add_gradient(at, rows, floors, none, to, target))
 
-    direction, step = np.random.default_rng(10).standard_normal(points.shape), 1e-6
-    ahead, behind = points + step * direction, points - step * direction
-    assert_allclose((slopes(points) * direction).sum(), (value(ahead) - value(behind)) / (2 * step), rtol=1e-6)
     matrix = assembled(
         points,
         rows,
         lambda shares, off, own: kernels.floor_barrier.assemble(points, floors, none, shares, off, own, target),
     )
-    difference = (slopes(ahead) - slopes(behind)) / (2 * step)
-    assert_allclose(matrix @ direction.ravel(), difference.ravel(), atol=1e-5 * np.abs(difference).max())
+    check_derivatives(points, value, slopes, lambda way: (matrix @ way.ravel()).reshape(-1, 3))
 
 
 def values_inside(points, row, about, n=9):

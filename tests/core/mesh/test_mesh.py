@@ -34,7 +34,7 @@ from hexmend.mesh.edge_length import OUTLIER_FACTOR, mean_edge_length
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.materials import STRUCTURED_BLOCKS
 from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes, mirror_hexes, with_consistent_orientation
-from hexmend.mesh.rules.periodic_sets import nodes_in_set, set_names
+from hexmend.mesh.rules.named_sets import nodes_in_set, set_names
 from hexmend.mesh.topology import Topology
 from hexmend.quality import corner_determinants
 from hexmend.terminal_text import count_phrase

@@ -20,7 +20,8 @@ from hexmend.mesh.element_target import Target
 from hexmend.optimise import descent
 from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
 from hexmend.optimise.descent import is_perfect
-from hexmend.optimise.linear_solvers import ConjugateGradients, Minres, minres
+from hexmend.optimise.linear_solvers import ConjugateGradients, Minres
+from hexmend.optimise.minres import minres
 from hexmend.optimise.search_direction import (
     ModifiedNewton,
     Newton,

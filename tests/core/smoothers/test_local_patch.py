@@ -12,7 +12,8 @@ from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
 from hexmend.kernels.local import Direction, NodeStepSettings
 from hexmend.kernels.patches import sweep
-from hexmend.smoothers.local.single_node import LocalDescent, partition_patches
+from hexmend.smoothers.local.patch import partition_patches
+from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 from tests.core.grids import grid, scrambled
 from tests.core.smoothers.test_smoothers import after

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.periodic_sets import set_names
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend.padding import Padding
 from hexmend.parameters import Parameter
 from hexmend_app.feature import Action, Feature, Host

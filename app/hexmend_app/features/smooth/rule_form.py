@@ -13,9 +13,9 @@ from PySide6.QtWidgets import QGridLayout, QLineEdit, QVBoxLayout, QWidget
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.periodic_sets import set_names
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.run.messages import describe_interfaces
+from hexmend.run.interface_messages import describe_interfaces
 from hexmend.terminal_text import printable
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import clear, fill

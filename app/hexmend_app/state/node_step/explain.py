@@ -22,9 +22,11 @@ from hexmend.quality import measure
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.constrained_steps import constrained_steps
 from hexmend.smoothers.general import General
-from hexmend.smoothers.getme.simultaneous import GETMe, SequentialGETMe
+from hexmend.smoothers.getme.sequential import SequentialGETMe
+from hexmend.smoothers.getme.simultaneous import GETMe
 from hexmend.smoothers.global_.descent import GlobalDescent
-from hexmend.smoothers.laplacian.laplacian import Laplacian, SmartLaplacian
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.node_step.local import local_step
 from hexmend_app.state.node_step.patch import MARGIN, Patch, curve_length

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
-from hexmend.mesh.rules.periodic_sets import set_names
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend.parameters import Parametrised, declared, from_values
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage

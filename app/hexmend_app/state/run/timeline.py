@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from hexmend_app.state.mesh.document import OWN_PARTS, Document, MeasuredMesh
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.run.run_controller import Phase, RunController
@@ -82,24 +82,6 @@ class Timeline(QObject):
                 return
         state = self.history.state(RecordedIteration(record, number), self._document.now.mesh)
         if state is not self._document.now:
-            self._document.preview(state)
-
-    def go_to_start(self) -> None:
-        """Show the node positions at the start of the document, whether or not an iteration has them."""
-        self.pause()
-        if self._smoothing.busy:
-            self._smoothing.follow(False)
-        start, now, recorded = self._document.start, self._document.now, self._document.recorded
-        if recorded.mesh.points is start.mesh.points:
-            state = recorded
-        elif all(getattr(start.mesh, part) is getattr(now.mesh, part) for part in OWN_PARTS):
-            state = start
-        else:
-            mesh = now.mesh.with_points(start.mesh.points)
-            if mesh.surface_points is not start.mesh.surface_points:
-                mesh = mesh.moving_from(start.mesh.surface_points)
-            state = MeasuredMesh.of(mesh, start.quality)
-        if now.mesh.points is not start.mesh.points:
             self._document.preview(state)
 
     def go_soon(self, record: RunRecord, number: int) -> None:

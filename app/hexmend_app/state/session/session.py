@@ -11,7 +11,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.doctor import examine
-from hexmend.mesh.rules.periodic_sets import set_names
+from hexmend.mesh.rules.named_sets import set_names
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.picture.colours import MATERIAL
 from hexmend_app.state.mesh.document import Document

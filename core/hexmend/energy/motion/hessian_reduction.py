@@ -9,8 +9,9 @@ import numpy as np
 from hexmend.arrays import index_of, mask
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.motion.motion import Motion
-from hexmend.energy.sparsity import BlockSparsity, Workspace
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.terms import UPPER
+from hexmend.energy.workspace import Workspace
 from hexmend.kernels import conjugate_gradients
 from hexmend.mesh.mesh import Mesh
 

@@ -18,8 +18,9 @@ from hexmend.boundary.closest_point import ClosestPointCache
 from hexmend.boundary.normals import directions_of_means
 from hexmend.boundary.sliding.sliding_boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.norm import DeltaPolicy, ObjectiveNorm, SurfaceObjective
+from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.energy.quads.quad_energy import QuadCorners, power_derivatives
+from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
 from hexmend.energy.terms import ElementBlocks
 from hexmend.kernels import sliding_surface

@@ -24,7 +24,8 @@ from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.formats import Polygons, read_legacy, read_obj, read_ply, read_stl, read_vtp
 from hexmend.kernels import closest_point
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology.components import close_pairs, components
+from hexmend.mesh.topology.close_pairs import close_pairs
+from hexmend.mesh.topology.components import components
 
 
 def with_curves_of_file(mesh: Mesh, path: str | os.PathLike[str]) -> Mesh:

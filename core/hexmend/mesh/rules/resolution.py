@@ -15,7 +15,8 @@ from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
-from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic, nodes_in_set
+from hexmend.mesh.rules.named_sets import nodes_in_set
+from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic
 
 #: Largest distance of nodes from their plane, in mean edge lengths of the mesh.
 FLATNESS_TOLERANCE = 1e-6

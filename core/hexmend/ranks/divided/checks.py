@@ -20,7 +20,7 @@ from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import is_name_of_materials
 from hexmend.mesh.orientation import all_corners_negative, are_left_handed, left_handed_error, signed_volumes
 from hexmend.mesh.topology import Topology
-from hexmend.mesh.topology.components import face_parity, signed_components
+from hexmend.mesh.topology.face_parity import face_parity, signed_components
 from hexmend.quality import measure
 from hexmend.quality.measure import locked_hexes
 from hexmend.quality.validity import least_jacobian

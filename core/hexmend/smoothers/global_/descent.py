@@ -1,9 +1,4 @@
-"""Bases of the global methods, Algorithm 3.3: all free nodes at once, and the linear system of Newton's methods.
-
-Newton's method, with the Hessian as it is and made positive definite: Algorithm 3.3 with A.3, A.4 and A.5.
-
-Global optimisation by steepest descent: Algorithm 3.3 with A.2 and A.5.
-"""
+"""Bases of the global methods, Algorithm 3.3: all free nodes at once, and the linear system of Newton's methods."""
 
 from __future__ import annotations
 
@@ -16,10 +11,10 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
 from hexmend.optimise.linear_solvers import ConjugateGradients, LinearSolver, Minres
-from hexmend.optimise.search_direction import DirectionMethod, ModifiedNewton, Newton, steepest_descent
+from hexmend.optimise.search_direction import DirectionMethod
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.base import Steps
 from hexmend.smoothers.base_optimiser import Optimiser
 
 
@@ -94,56 +89,3 @@ class GlobalNewton(GlobalDescent):
     def linear_solver(self) -> LinearSolver:
         """The solver with the method's parameters."""
         return SOLVERS[self.solver](self.solver_tolerance, self.solver_iterations)
-
-
-@method
-class GlobalModifiedNewton(GlobalNewton):
-    """All free nodes at once by Newton's direction, the Hessian made positive definite."""
-
-    name = "global-mnr"
-    title = "Global modified Newton"
-    help = "Newton's method for all nodes at once, with the Hessian's eigenvalues raised. More robust, slightly slower."
-    source = "Wilson 3.2, Algorithms 3.3, A.4 and A.5"
-
-    def direction(self) -> DirectionMethod:
-        return ModifiedNewton(self.linear_solver())
-
-
-@method
-class GlobalNewtonRaphson(GlobalNewton):
-    """All free nodes at once by Newton's direction."""
-
-    name = "global-nr"
-    title = "Global Newton-Raphson"
-    help = "Newton's method for all nodes at once: the optimum in about twelve steps if no hex is inverted."
-    source = "Wilson 3.2, Algorithms 3.3, A.3 and A.5"
-
-    def direction(self) -> DirectionMethod:
-        return Newton(self.linear_solver())
-
-
-@method
-@dataclass(frozen=True)
-class GlobalSteepestDescent(GlobalDescent):
-    """All free nodes at once down the gradient of the mesh's energy."""
-
-    name = "global-sd"
-    title = "Global steepest descent"
-    help = "Moves all nodes at once down the gradient. Slow or stuck: one bad region limits the step of the whole mesh."
-    source = "Wilson 3.2, Algorithms 3.3, A.2 and A.5"
-    bytes_per_hex = 700
-
-    step_unit: str = parameter(
-        "edge",
-        choices=("edge", "mesh"),
-        help="Unit of length of the first trial step: the mean edge length, or that of the points (A.2, A.5).",
-        advanced=True,
-    )
-
-    def search(self, energy: MeshEnergy) -> LineSearch:
-        """In the mesh's unit a gradient is shorter by its mean edge length, and a step longer in edge lengths."""
-        step = self.initial_step if self.step_unit == "edge" else self.initial_step / energy.unit**2
-        return self.line_search.with_initial_step(step)
-
-    def direction(self) -> DirectionMethod:
-        return steepest_descent

@@ -14,7 +14,8 @@ from hexmend.energy.terms import Term, Terms
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import kinds_of
-from hexmend.optimise.floors.movable_hexes import MovableHexes, Region
+from hexmend.optimise.floors.movable_hexes import MovableHexes
+from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import TruncatedNewton
 from hexmend.quality import ElementQuality, locked_hexes, measure
 from hexmend.smoothers.mend.floors import FLOORS

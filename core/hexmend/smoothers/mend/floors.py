@@ -18,7 +18,8 @@ from hexmend.energy.ranks import Ranks
 from hexmend.iteration import ActiveSet, Step
 from hexmend.optimise.descent import DESCENT, Descent
 from hexmend.optimise.floors.maximised_floor import FloorDirection, MaximisedFloor, Reward
-from hexmend.optimise.floors.movable_hexes import MovableHexes, Region
+from hexmend.optimise.floors.movable_hexes import MovableHexes
+from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import DampedDirection, TruncatedNewton
 from hexmend.smoothers.mend.newton_steps import newton_step
 

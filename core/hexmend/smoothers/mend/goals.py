@@ -1,25 +1,21 @@
-"""Stage of mend that reaches its goal: floors rise from the best of some starts, then the shape improves above them.
-
-Stage of mend with the goal time-step: the smallest explicit time step is raised, at wave speed 1 a height.
-"""
+"""Stage of mend that reaches its goal: floors rise from the best of some starts, then the shape improves above them."""
 
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from hexmend.energy import MeshEnergy
 from hexmend.iteration import ActiveSet, Step
-from hexmend.optimise.floors.movable_hexes import MovableHeights
 from hexmend.quality import measure
 from hexmend.quality.regressions import WORSE_BY
 from hexmend.smoothers.mend.floors import BARRIER_SAFE, FLOORS, Floors
 from hexmend.smoothers.mend.free_boundary import FreeBoundary
 from hexmend.smoothers.mend.mend_settings import MendSettings
 from hexmend.smoothers.mend.messages import balance_message, limit_message
+from hexmend.smoothers.mend.time_step import raise_time_step
 
 #: Shares of the highest minimum scaled Jacobian tried as its floor, first around what rose and then everywhere, until
 #: the mean of q(H) is no lower than as given.
@@ -171,31 +167,3 @@ def _balance(
 def _below(value: float) -> float:
     """Return a floor below a value, but not so far that it would count as lower."""
     return value - WORSE_BY / 2
-
-
-#: Factor of the rise from which on the stage begins again with a larger unit.
-_NEW_UNIT = 2.0
-
-
-def raise_time_step(
-    energy: MeshEnergy, points: np.ndarray
-) -> Generator[Step, None, tuple[np.ndarray, float, ActiveSet]]:
-    """Raise the least height of the corners that can be moved from points (n, 3) on.
-
-    Returns
-    -------
-    points : (n, 3) float64
-    least : float
-        The time step, in the unit of the mesh.
-    active : ActiveSet
-    """
-    unit = Floors(energy, points, partial(MovableHeights, unit=1.0)).values.jacobian
-    unit = unit if 0 < unit < np.inf else 1.0
-    while True:
-        floors = Floors(energy, points, partial(MovableHeights, unit=unit))
-        yield from floors.rise(enough=_NEW_UNIT)
-        points, least = floors.points, floors.values.jacobian * unit
-        if not _NEW_UNIT * unit <= least < np.inf:
-            break
-        unit = least
-    return points, least * energy.unit, floors.active_set()

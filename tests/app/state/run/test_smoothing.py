@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hexmend import Iteration, Laplacian, Smoother, Step, StoppingCriteria, gallery, iterate, measure, smooth
-from hexmend.smoothers.local.single_node import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh import metric_cache
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.history import History

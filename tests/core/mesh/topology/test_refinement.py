@@ -7,7 +7,7 @@ from hexmend.gallery import make
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS, left_handed_hexes, with_consistent_orientation
-from hexmend.mesh.topology.components import face_parity
+from hexmend.mesh.topology.face_parity import face_parity
 from hexmend.smoothers.mend.nested.nested_start import find_refinement
 from tests.core.doctor.faulty_meshes import found_in
 from tests.core.grids import grid

@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree
 from hexmend import Mesh, MeshError
 from hexmend.arrays import BLOCK
 from hexmend.mesh.topology import Topology
-from hexmend.mesh.topology.components import any_of_rows, close_pairs, components, components_of_cells
+from hexmend.mesh.topology.close_pairs import close_pairs
+from hexmend.mesh.topology.components import any_of_rows, components, components_of_cells
 from tests.core.grids import grid
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)

@@ -76,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     if mesh.materials is not None:
         _print_materials(mesh)
     if mesh.embedded.any():
-        from hexmend.run.messages import describe_embedded
+        from hexmend.run.interface_messages import describe_embedded
 
         print(describe_embedded(mesh))
     if second_order is not None:
@@ -111,7 +111,7 @@ def _examine(mesh: Mesh, all_searches: bool, is_bent: bool) -> tuple[Finding, ..
 
 def _print_materials(mesh: Mesh) -> None:
     """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
-    from hexmend.run.messages import describe_interfaces
+    from hexmend.run.interface_messages import describe_interfaces
 
     materials = mesh.materials
     counts = np.bincount(materials.of_hex).tolist()

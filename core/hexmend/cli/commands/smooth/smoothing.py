@@ -31,7 +31,7 @@ from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report.records import record, write_history, write_json
 from hexmend.run import iterate
-from hexmend.run.messages import describe_embedded
+from hexmend.run.interface_messages import describe_embedded
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.terminal_text import install_hint

@@ -6,6 +6,7 @@ Coordinates of an LS-DYNA deck in the columns of *NODE, also of files that it in
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.coordinates.text_coordinates import Edits, shortened
 from hexmend.io.formats.lsdyna.deck import Keyword, join, keywords
 from hexmend.io.storage.atomic import AtomicFiles
+from hexmend.mesh.collapsed_hexes import collapsed_solids
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
@@ -117,10 +119,12 @@ class _Model:
             problem = f"has {np.count_nonzero(nodes[wrong[0], :8])} nodes in {place}: expected 8"
             raise keyword.error(problem, DAMAGED)
         kinds = _solids(nodes) if base in _SOLIDS else _lower(nodes[:, : 4 if base == "ELEMENT_SHELL" else 2], base)
-        for kind, (which, own) in kinds.items():
-            if which.any():
-                self.elements.setdefault(kind, []).append(np.column_stack([rows[which, :2], own[which]]))
-        if (n_left := len(rows) - sum(int(which.sum()) for which, _ in kinds.values())) > 0:
+        n_left = len(rows)
+        for kind, which, own in kinds:
+            n_left -= len(which)
+            if len(which):
+                self.elements.setdefault(kind, []).append(np.column_stack([rows[which, :2], own]))
+        if n_left > 0:
             self.others[f"elements of *{keyword.name} with other numbers of nodes"] += n_left
 
     def _add_parts(self, keyword: Keyword) -> None:
@@ -189,33 +193,26 @@ class _Model:
                     block.sets[name] = own
 
 
-def _solids(nodes: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Find the rows of solids, (k,) bool, that are of each kind, and their nodes in VTK's order.
-
-    Nodes of tetrahedra, pyramids and wedges are repeated in the places of a hex: 1 2 3 4 4 4 4 4, 1 2 3 4 5 5 5 5 and
-    1 2 3 4 5 5 6 6.
-    """
-    n1, n2, n3, n4, n5, n6, n7, n8 = nodes[:, :8].T
+def _solids(nodes: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Yield the kinds of solids, the rows (k,) of each, and their nodes; those of other kinds are collapsed hexes."""
     ends = (nodes[:, 8:] > 0).all(axis=1) & (nodes.shape[1] > 8)
-    same = (n6 == n5) & (n7 == n5) & (n8 == n5)
-    tetra = same & (n5 == n4) & ~ends
-    pyramid, wedge = same & ~tetra & ~ends, (n6 == n5) & (n8 == n7) & ~same
-    wedges = np.column_stack([n1, n5, n2, n4, n7, n3])
-    return {
-        "hex": (~tetra & ~pyramid & ~wedge & ~ends, nodes[:, :8]),
-        "tetra": (tetra, nodes[:, :4]),
-        "tetra10": (ends, nodes[:, :10]),
-        "pyramid": (pyramid, nodes[:, :5]),
-        "wedge": (wedge, wedges),
-    }
+    yield "tetra10", np.flatnonzero(ends), nodes[ends, :10]
+    others, is_hex = np.flatnonzero(~ends), ~ends
+    for kind, rows, own in collapsed_solids(nodes[others, :8]):
+        is_hex[others[rows]] = False
+        yield kind, others[rows], own
+    yield "hex", np.flatnonzero(is_hex), nodes[is_hex, :8]
 
 
-def _lower(nodes: np.ndarray, base: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Find the rows of shells or beams that are of each kind, and their nodes; a triangle may repeat its last node."""
+def _lower(nodes: np.ndarray, base: str) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Yield the kinds of shells or beams, the rows (k,) of each, and their nodes; a triangle may repeat its last."""
     if base == "ELEMENT_BEAM":
-        return {"line": (nodes.all(axis=1), nodes)}
+        rows = np.flatnonzero(nodes.all(axis=1))
+        yield "line", rows, nodes[rows]
+        return
     triangle = (nodes[:, 3] == 0) | (nodes[:, 3] == nodes[:, 2])
-    return {"triangle": (triangle, nodes[:, :3]), "quad": (~triangle, nodes)}
+    yield "triangle", np.flatnonzero(triangle), nodes[triangle, :3]
+    yield "quad", np.flatnonzero(~triangle), nodes[~triangle]
 
 
 def _members(ids: np.ndarray, parts: list[np.ndarray]) -> np.ndarray:
