@@ -100,8 +100,7 @@ def test_the_bar_follows_a_run_and_its_figures_are_copied(window, qtbot):
     start = window.session.document.start.summary
     assert bar.isVisible()
     assert "→" not in bar.text
-    seen = set()
-    window.session.run.iterated.connect(lambda frame: seen.add(frame.iteration.number))
+    seen = heard_from(window.session.run.iterated)
     run_to_end(window, qtbot, "local-sd", max_iterations=5)
     now = window.session.document.now.summary
     assert seen
