@@ -7,8 +7,9 @@ Replacement of parts of a text by new ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from dataclasses import fields as dataclass_fields
 from pathlib import Path
 
 import numpy as np
@@ -117,19 +118,28 @@ _WIDEST = 64
 
 @dataclass(frozen=True, eq=False)
 class TextFields:
-    """Byte ranges of the three coordinates of nodes, without blanks around them.
+    """Byte ranges of fields of lines, such as the three coordinates of nodes; without blanks where words are read.
 
     Parameters
     ----------
-    begin, end : (n, 3) int64
+    begin, end : (n, f) int64
         Equal for a blank field.
-    absent : (n, 3) bool
+    absent : (n, f) bool
         True for fields that a line ends before; they are written behind a comma at `begin`.
+    columns : (n, f) int64
+        Width of fields in fixed columns, whose numbers stand at the right; 0 for fields between commas or blanks.
     """
 
     begin: np.ndarray
     end: np.ndarray
     absent: np.ndarray
+    columns: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: Sequence[TextFields], which: slice = slice(None)) -> TextFields:
+        """Join the fields of lines one below the other, some in each line."""
+        arrays = ([getattr(part, one.name)[:, which] for part in parts] for one in dataclass_fields(cls))
+        return cls(*map(np.concatenate, arrays))
 
     def edits(self, changed: np.ndarray, texts: list[bytes]) -> Edits:
         """Return the edits that write new numbers.
@@ -141,10 +151,10 @@ class TextFields:
         texts : list of bytes
             The new numbers.
         """
-        begin, end, absent = (part[changed] for part in (self.begin, self.end, self.absent))
-        for k in np.flatnonzero(absent).tolist():
-            texts[k] = b", " + texts[k]
-        return Edits(begin, end, texts).in_order()
+        absent, columns = self.absent[changed].tolist(), self.columns[changed].tolist()
+        for k, (is_absent, width) in enumerate(zip(absent, columns, strict=True)):
+            texts[k] = b", " + texts[k] if is_absent and not width else texts[k].rjust(width)
+        return Edits(self.begin[changed], self.end[changed], texts).in_order()
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,14 +168,12 @@ class TextCoordinates:
     points : (n, 3) float64
         As the reader of the format gives them.
     fields : TextFields
-    width : int
-        Most characters of a number; 0 for no limit.
+        Of words.
     """
 
     data: bytes
     points: np.ndarray
     fields: TextFields
-    width: int = 0
 
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
@@ -178,8 +186,7 @@ class TextCoordinates:
         found = parse_fields(self.data, self.fields.begin[changed], self.fields.end[changed])
         if found is None or not np.array_equal(found, self.points[changed], equal_nan=True):
             raise CoordinatesError("its layout is not one in which coordinates can be replaced")
-        changed |= changed.any(axis=1)[:, None] & self.fields.absent
-        return self.fields.edits(changed, number_texts(points[changed], self.width))
+        return self.fields.edits(changed, number_texts(points[changed]))
 
 
 def parse_fields(data: bytes, begin: np.ndarray, end: np.ndarray) -> np.ndarray | None:
@@ -225,7 +232,7 @@ def word_ranges(data: bytes, begin: int, end: int) -> tuple[np.ndarray, np.ndarr
 
 def fields_of_words(begin: np.ndarray, end: np.ndarray) -> TextFields:
     """Fields of the words of a text between blanks, of their ranges, (n, 3) int64 each."""
-    return TextFields(begin, end, np.zeros(begin.shape, bool))
+    return TextFields(begin, end, np.zeros(begin.shape, bool), np.zeros(begin.shape, np.int64))
 
 
 def blanked(data: bytes, mark: bytes) -> bytes:

@@ -14,17 +14,20 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.coordinates import joined_files
 from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
-from hexmend.io.coordinates.text_coordinates import TextFields, parse_fields, word_ranges
+from hexmend.io.coordinates.text_coordinates import word_ranges
+from hexmend.io.formats.decks.lines import CardLines, trimmed
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 #: A line whose first letter is a single asterisk; it goes on in the next line behind a comma.
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)(?:[^\n]*,[ \t]*\n)*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
 NEWLINE = b"\n"
+#: Fields of a node: number, x, y and z.
+NODE_FIELDS = (1, 1, 1, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,29 +108,21 @@ class Deck:
         """Return the place of an offset, such as "line 12", or "line 3 of nodes.inp" in an included file."""
         return self.files.place(at)
 
-    def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray, TextFields]:
-        """Return the numbers, (k,) int64, coordinates, (k, 3) float64, and their fields, of a *NODE card.
+    def node_lines(self, card: Card) -> CardLines:
+        """Return the data lines of a *NODE card that are not blank."""
+        letters = np.frombuffer(self.data, np.uint8)
+        breaks = card.begin + np.flatnonzero(letters[card.begin : card.end] == NEWLINE[0])
+        begin, end = trimmed(letters, np.append(card.begin, breaks + 1), np.append(breaks, card.end))
+        return CardLines("*NODE", self.files, card.at, begin[begin < end], end[begin < end], None)
 
-        Blank fields are 0.
-        """
-        fields = _node_fields(self.data, card.begin, card.end)
-        begin, end = fields.begin.ravel(), fields.end.ravel()
-        values = parse_fields(self.data, begin, end)
-        if values is None:
-            low, high = 0, len(begin)
-            while high - low > 1:
-                middle = (low + high) // 2
-                found = parse_fields(self.data, begin[low:middle], end[low:middle]) is None
-                low, high = (low, middle) if found else (middle, high)
-            word = self.data[begin[low] : end[low]].decode("utf-8", errors="replace")
-            raise self.error(f"*NODE in {self.place(int(begin[low]))} holds {quoted(word)}: expected a number")
-        rows = values.reshape(-1, 4)
+    def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
+        """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
+        rows = self.node_lines(card).cards(NODE_FIELDS).reals(0, 4)
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
         if wrong.size:
             raise self.error(f"*NODE in {card.place} has the number {rows[wrong[0], 0]:g}: expected a whole number")
-        coordinates = TextFields(*(part[:, 1:] for part in (fields.begin, fields.end, fields.absent)))
-        return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:]), coordinates
+        return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
     def element_rows(self, card: Card, width: int) -> tuple[np.ndarray, int]:
         """Return the numbers of the elements of a card, (k, width) int64, and the number of lines that hold more.
@@ -170,38 +165,6 @@ def keywords(data: bytes) -> Iterator[tuple[int, int, str, dict[str, str]]]:
     for found in _KEYWORD.finditer(data):
         name, options = _split_keyword(found[0].decode("utf-8", errors="replace"))
         yield found.start(), min(found.end() + 1, len(data)), name, options
-
-
-def _node_fields(data: bytes, begin: int, end: int) -> TextFields:
-    """Fields of the number and the coordinates in the data lines of a *NODE card, a row for each line not blank."""
-    letters = np.frombuffer(data, np.uint8)
-    breaks, commas = (begin + np.flatnonzero(letters[begin:end] == ord(mark)) for mark in "\n,")
-    start, stop = _trimmed(letters, np.append(begin, breaks + 1), np.append(breaks, end))
-    start, stop = start[start < stop], stop[start < stop]
-    first = np.searchsorted(commas, start)
-    count = np.searchsorted(commas, stop) - first
-    absent = count[:, None] < np.arange(4)
-    at = first[:, None] + np.arange(-1, 4)  # commas around the fields
-    around = np.append(commas, 0)[np.clip(at, 0, len(commas))]
-    low = np.where(absent, stop[:, None], around[:, :4] + 1)
-    low[:, 0] = start
-    high = np.where(count[:, None] > np.arange(4), around[:, 1:], stop[:, None])
-    begins, ends = _trimmed(letters, low, np.maximum(low, high))
-    blank = begins == ends
-    begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
-    return TextFields(begins, ends, absent)
-
-
-def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Ranges without blanks at their ends."""
-    shape, begin, end = begin.shape, begin.ravel().copy(), end.ravel().copy()
-    for bound, ahead, step in (begin, 0, 1), (end, -1, -1):
-        rows = np.arange(bound.size)  # those that may begin or end with a blank
-        while rows.size:
-            rows = rows[begin[rows] < end[rows]]
-            rows = rows[letters[bound[rows] + ahead] <= ord(" ")]
-            bound[rows] += step
-    return begin.reshape(shape), end.reshape(shape)
 
 
 def unquoted(name: str) -> str:

@@ -15,9 +15,9 @@ import numpy as np
 from hexmend.io.base.cursor import is_number, quoted
 from hexmend.io.base.remedies import check_suffix, some_names, unread_note
 from hexmend.io.coordinates.located import CoordinatesError
-from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
+from hexmend.io.coordinates.text_coordinates import TextFields
 from hexmend.io.formats.abaqus.content import to_mesh
-from hexmend.io.formats.abaqus.deck import Card, Deck, read_deck, unquoted
+from hexmend.io.formats.abaqus.deck import NODE_FIELDS, Card, Deck, read_deck, unquoted
 from hexmend.io.formats.abaqus.model import (
     ElementCard,
     Instance,
@@ -27,6 +27,7 @@ from hexmend.io.formats.abaqus.model import (
     name_key,
     placement,
 )
+from hexmend.io.formats.decks.coordinates import DeckCoordinates
 from hexmend.io.storage.atomic import AtomicFiles
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
@@ -142,7 +143,7 @@ class _Reader:
         """*NODE, NSET=..."""
         if card.options.get("SYSTEM", "R").upper() not in ("R", ""):
             raise self.deck.error(f"*NODE in {card.place} has other coordinates than x, y and z", _EXPAND)
-        ids, points, _ = card.deck.nodes(card)
+        ids, points = card.deck.nodes(card)
         self.part.node_ids.append(ids)
         self.part.points.append(points)
         if "NSET" in card.options:
@@ -236,8 +237,6 @@ _CARDS: dict[str, Callable[[_Reader, Card], None]] = {
 }  # fmt: skip
 
 
-#: Characters of a real number that Abaqus and CalculiX read.
-_WIDTH = 20
 #: Differences of a part's instances that count as rounding, relative to the size of the part.
 _ROUNDING = 1e-9
 
@@ -261,12 +260,11 @@ class AbaqusCoordinates:
     def __init__(self, deck: Deck, instances: list[Instance]):
         self._deck, self._instances = deck, instances
         self._rows: dict[Card, np.ndarray] = {}
-        self._fields: dict[Card, TextFields] = {}
         ids: dict[Card, np.ndarray] = {}
         for instance in instances:
             for card in instance.part.node_cards:
                 if card not in self._rows:
-                    ids[card], self._rows[card], self._fields[card] = deck.nodes(card)
+                    ids[card], self._rows[card] = deck.nodes(card)
                 instance.part.points.append(self._rows[card])
                 instance.part.node_ids.append(ids[card])
         self._given = np.concatenate([instance.points() for instance in instances])
@@ -289,9 +287,9 @@ class AbaqusCoordinates:
                 new_rows.setdefault(card, rows)
         cards = list(new_rows)
         given, rows = (np.concatenate([table[card] for card in cards]) for table in (self._rows, new_rows))
-        arrays = ([getattr(self._fields[card], name) for card in cards] for name in ("begin", "end", "absent"))
-        located = TextCoordinates(self._deck.files.data, given, TextFields(*map(np.concatenate, arrays)), _WIDTH)
-        return self._deck.files.write(files, target, located.edits(rows))
+        fields = [self._deck.node_lines(card).fields(NODE_FIELDS) for card in cards]
+        located = DeckCoordinates(self._deck.files, given, TextFields.joined(fields, slice(1, 4)))
+        return located.write(files, target, rows)
 
 
 def _in_part(instance: Instance, before: np.ndarray, after: np.ndarray, rows: np.ndarray) -> np.ndarray:

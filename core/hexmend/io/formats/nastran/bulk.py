@@ -15,10 +15,10 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.errors import FileError
-from hexmend.io.base.cards import LONGEST, Cards
 from hexmend.io.base.cursor import quoted
 from hexmend.io.coordinates import joined_files
 from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
+from hexmend.io.formats.decks.cards import LONGEST, Cards
 
 #: Lines cut into fields at a time, which bounds the memory.
 _CHUNK_LINES = 65536

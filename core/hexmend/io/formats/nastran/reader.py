@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cards import Cards
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, to_vtk_order
+from hexmend.io.base.content import Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.formats.decks.cards import Cards
+from hexmend.io.formats.decks.model import DeckModel
 from hexmend.io.formats.nastran.bulk import BulkData, join
 from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
 from hexmend.io.formats.nastran.systems import CoordinateSystems
-from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
@@ -62,14 +61,10 @@ class BulkModel:
     """
 
     def __init__(self, path: Path):
-        self._path = path
+        self._deck = DeckModel(path, "GRID", "a Nastran bulk data file")
         self._grids: list[Cards] = []
         self._default_system = 0
         self.systems = CoordinateSystems()
-        self._connected: list[np.ndarray] = []  # numbers of grid points that cards hold which are not read
-        self._joining: list[str] = []
-        self._elements: dict[str, list[np.ndarray]] = {}  # by kind; a row is a line, an id, a property and nodes
-        self._other_cards: dict[str, int] = {}
         self._n_partial = 0  # elements with some of their mid-nodes only
 
     def add(self, cards: Cards) -> None:
@@ -79,13 +74,13 @@ class BulkModel:
         if cards.name in KINDS_OF_CARD:
             self._add_elements(cards)
             return
-        self._other_cards[cards.name] = self._other_cards.get(cards.name, 0) + len(cards.lines)
+        self._deck.others[cards.name] += len(cards.lines)
         first = NODES_OF_CARD.get(cards.name)
         if first is not None:
             fields = cards.fields(first, int((cards.ends - cards.begins).max()))
-            self._connected.append(fields[np.strings.isdigit(fields)].astype(np.int64))
+            self._deck.held[cards.name].append(fields[np.strings.isdigit(fields)].astype(np.int64))
         if cards.name in JOINING or first is not None:
-            self._joining.append(cards.name)
+            self._deck.joining.append(cards.name)
 
     def add_position(self, cards: Cards) -> bool:
         """Add grid points, or the systems of their coordinates; returns False for other cards."""
@@ -102,7 +97,7 @@ class BulkModel:
     def grid_points(self) -> GridPoints:
         """Return the grid points of all cards; raises `FileError` where there are none."""
         if not self._grids:
-            raise FileError(self._path, "has no GRID", check_suffix("a Nastran bulk data file"))
+            self._deck.given_nodes()  # an error
         parts = [(one.lines, one.integers(0, 2), one.reals(2, 5)) for one in self._grids]
         lines, numbers, given = map(np.concatenate, zip(*parts, strict=True))
         ids, systems = numbers.T
@@ -122,40 +117,34 @@ class BulkModel:
                 found = n_nodes + np.count_nonzero(behind[at] != b"")
                 raise cards.error(at, f"has {found} nodes: expected {n_corners} to {n_nodes}", _FEWER_NODES)
         properties = numbers[:, 1] if first == 2 else np.zeros_like(cards.lines)
-        rows = np.column_stack([cards.lines, numbers[:, 0], properties, nodes])
         n_mid = np.count_nonzero(nodes[:, n_corners:], axis=1)
         full = (n_mid == n_nodes - n_corners) & bool(quadratic)
-        for kind, chosen, width in ((linear, ~full, 3 + n_corners), (quadratic, full, 3 + n_nodes)):
+        for kind, chosen, width in ((linear, ~full, n_corners), (quadratic, full, n_nodes)):
             if chosen.any():
-                self._elements.setdefault(kind, []).append(rows[chosen, :width])
+                own = to_vtk_order(nodes[chosen, :width], kind, ORDER)
+                self._deck.add_elements(kind, cards.lines[chosen], numbers[chosen, 0], properties[chosen], own)
         self._n_partial += int(((n_mid > 0) & ~full).sum())
 
     def content(self) -> Content:
         """Return the content that all cards make together."""
-        grid = self.grid_points()
-        node_ids, notes = grid.ids, []
+        grid, deck = self.grid_points(), self._deck
         if self._n_partial:
             partial = f"{self._n_partial:,} elements have some of their mid-nodes only"
-            notes.append(f"{partial}: they are read with their corners only.")
-        if self._other_cards:
-            words = some_names(f"{count:,} {quoted(name)[1:-1]}" for name, count in self._other_cards.items())
-            notes.append(unread_note(f"other cards ({words})"))
-        blocks = [_block(self._path, kind, np.concatenate(rows), node_ids) for kind, rows in self._elements.items()]
-        blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
-        used = np.zeros(len(node_ids), dtype=bool)
-        for block in blocks:
+            deck.notes.append(f"{partial}: they are read with their corners only.")
+        if self.systems.grid_points:
+            deck.held["coordinate systems"].append(np.array(list(self.systems.grid_points)))
+        deck.nodes.append((grid.ids, grid.points))
+        content = deck.content(lambda number: f"property {number}" if number > 0 else "")
+        used = np.zeros(len(grid.ids), dtype=bool)
+        for block in content.blocks:
             used[block.nodes] = True
         if n_unplaced := grid.unplaced(used):
             words = count_phrase(
                 n_unplaced, "grid point that no element uses is", "grid points that no element uses are"
             )
-            notes.append(f"{words} in a coordinate system that the file does not have: read as x, y and z.")
-        fixed = np.isin(node_ids, np.concatenate([*self._connected, list(self.systems.grid_points)]))
-        if self._connected and fixed.any():
-            notes.append(f"{count_phrase(int(fixed.sum()), 'grid point')} of {some_names(self._joining)} stay.")
-        fields = {CONTACT_CARDS: self._joining} if self._joining else {}
-        pinned = fixed if fixed.any() else None
-        return Content(grid.points, tuple(blocks), {ID: node_ids}, {}, {}, pinned, fields, tuple(notes))
+            note = f"{words} in a coordinate system that the file does not have: read as x, y and z."
+            content = replace(content, notes=(*content.notes, note))
+        return content
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,11 +207,3 @@ class GridPoints:
         """Basic coordinates of a grid point that defines a coordinate system, (3,)."""
         at = int(find_ids(self.cards.path, self.ids, np.array([number]), "node")[0])
         return self.known.to_basic(int(self.systems[at]), self.given[at : at + 1], self._point)[0]
-
-
-def _block(path: Path, kind: str, rows: np.ndarray, node_ids: np.ndarray) -> Block:
-    """Block of the elements of a kind, of rows of a line, an id, a property and nodes."""
-    _, ids, properties, *_ = (rows := rows[np.argsort(rows[:, 0], kind="stable")]).T
-    nodes = find_ids(path, node_ids, rows[:, 3:], "node")
-    sets = {f"property {one}": np.flatnonzero(properties == one) for one in np.unique(properties).tolist() if one > 0}
-    return Block(kind, to_vtk_order(nodes, kind, ORDER), {ID: ids.copy()}, sets)

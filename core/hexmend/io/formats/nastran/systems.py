@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.io.base.cards import Cards
+from hexmend.io.formats.decks.cards import Cards
 
 
 class CoordinateSystems:

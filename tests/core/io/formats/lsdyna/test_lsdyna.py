@@ -83,7 +83,7 @@ def test_parts_and_sets_are_sets(tmp_path):
     assert (hexa, sorted(FACES[face])) == (0, [0, 1, 2, 3])
     assert mesh.pinned.tolist() == [k == 3 for k in range(16)]
     assert {finding.kind for finding in examine(mesh)} == {"parts"}  # in contact, with nodes at one place
-    assert "other keywords (*ELEMENT_DISCRETE, *CONTACT_TIED)" in mesh.notes[0]
+    assert "other cards (1 *ELEMENT_DISCRETE, 1 *CONTACT_TIED)" in mesh.notes[0]
 
 
 def test_files_of_a_deck_are_read_and_replaced_under_a_new_name(tmp_path):
