@@ -19,7 +19,6 @@ import numpy as np
 
 from hexmend.io.base.capabilities import make_unique
 from hexmend.io.base.content import ID
-from hexmend.io.base.numbering import fit_64_bits
 
 #: VTK's node order: vtk = exodus[ORDER[kind]]; kinds without an entry have one order in both.
 ORDER = {
@@ -80,8 +79,9 @@ def clean_name(name: str, end: str) -> str:
 
 
 def are_ids(values: object) -> bool:
-    """Return True for an array of one whole number below 2^63 for each node or cell."""
-    return _are_whole(values) and fit_64_bits(np.asarray(values))
+    """Return True for an array of one whole number of at most 32 bits for each node or cell."""
+    limits = np.iinfo(np.int32)
+    return _are_whole(values) and not ((np.asarray(values) > limits.max) | (np.asarray(values) < limits.min)).any()
 
 
 def _are_whole(values: object) -> bool:

@@ -1,4 +1,4 @@
-"""Writer of ExodusII files, in NetCDF's classic formats."""
+"""Writer of ExodusII files, in NetCDF's classic format."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from hexmend.io.base.capabilities import (
 )
 from hexmend.io.base.content import ID, Block, concatenate_sets, from_vtk_order, hex_blocks, unused_name
 from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
-from hexmend.io.base.numbering import fit_64_bits
 from hexmend.io.formats.exodus.columns import (
     ORDER,
     PINS_PROPERTY,
@@ -32,9 +31,6 @@ from hexmend.io.formats.exodus.columns import (
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.records import IDS, add_records, assigned_ids
 from hexmend.mesh.mesh import Mesh
-
-#: Value of `int64_status` if the maps store ids of 64 bits: EX_MAPS_INT64_DB of exodusII.h.
-_MAPS_INT64 = 0x0400
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -51,10 +47,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     count = Counter(name for part in parts for name in part.sets if name)
     unique = {name for name in count if count[name] == 1}
     blocks = [block for part in parts for block in _element_blocks(part, unique)]
-    ids = [np.asarray(values) for values in (mesh.node_data.get(ID), *(part.data.get(ID) for part in parts))]
-    status = _MAPS_INT64 if any(_needs_int64(values) for values in ids) else 0
     attributes: dict[str, object] = dict.fromkeys(("api_version", "version"), np.float32(8.03))
-    attributes |= {"floating_point_word_size": np.int32(8), "file_size": np.int32(1), "int64_status": np.int32(status)}
+    attributes |= {"floating_point_word_size": np.int32(8), "file_size": np.int32(1), "int64_status": np.int32(0)}
     file = ClassicWriter(attributes | {"title": mesh.name or "Hexmend"})
     add_records(file, mesh.field_data)
     _add_points(file, mesh)
@@ -72,8 +66,8 @@ def limitations(mesh: Mesh) -> list[str]:
     left = rounded_integers(mesh) + non_numeric_data(mesh)
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
     for label, data in (("nodes", [mesh.node_data]), ("elements", cell_data)):
-        if any(not fit_64_bits(np.asarray(one[ID])) for one in data if ID in one):
-            left.append(f"ids of {label} (some of 2^63 and above)")
+        if any(ID in one and not are_ids(one[ID]) for one in data):
+            left.append(f"ids of {label} (some of 2^31 and above)")
     left += altered_names(column_titles([_node_data(mesh)]), "point data")
     left += altered_names(column_titles(cell_data), "cell data")
     return left + altered_set_names(mesh, clean_name)
@@ -208,8 +202,3 @@ def _add_entities(file: ClassicWriter, mesh: Mesh, prefix: str, dimension: str, 
         file.add_variable(f"{prefix}_prop1", shape, ids, name="ID")
         titles = make_unique((name for name in names if name or prefix != "eb"), clean_name)  # a block may have no name
         file.add_strings(f"{prefix}_names", dimension, [titles.get(name, "") for name in names])
-
-
-def _needs_int64(values: np.ndarray) -> bool:
-    """Return True for ids that do not fit into 32 bits."""
-    return are_ids(values) and bool(values.size) and (values.max() >= 2**31 or values.min() < -(2**31))

@@ -55,7 +55,7 @@ def written(path, points, blocks, more=(), title="by another library"):
 def rich() -> Mesh:
     bare = grid(2)
     return bare.replace(
-        node_data={"id": np.arange(27) + 2**40, "v": np.random.default_rng(1).normal(size=(27, 3))},
+        node_data={"id": np.arange(27) + 2**30, "v": np.random.default_rng(1).normal(size=(27, 3))},
         hex_data={"id": np.arange(8)[::-1] + 3, "tensor": np.arange(48.0).reshape(8, 6)},
         node_sets={"wall": np.array([0, 26])},
         hex_sets={"a": np.array([0, 1, 2]), "b": np.array([3, 4]), "scattered": np.array([0, 4, 7])},
