@@ -42,6 +42,8 @@ from hexmend.mesh.orientation import with_consistent_orientation
 _FORMATS_SHARE = 0.7
 #: Bytes of a file from which on its mesh is large: arrays that are freed are returned to the system.
 _LARGE_FILE = 1 << 24
+#: Remedy for a mesh whose deck can only be copied with other coordinates.
+_OTHER_FORMAT = "Write .vtu, .inp or .k instead."
 
 
 def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missing: bool = False) -> Mesh:
@@ -144,12 +146,14 @@ def write(
 
 
 def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
+    write = format.write
+    if write is None:
+        problem = f"{format.title} is written as a copy of a deck with other coordinates only"
+        raise FileError(path, problem, _OTHER_FORMAT)
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
-    write = format.write
-    assert write is not None  # a format that has encodings
     with file_operation(path, FileAction.WRITING):
         if format.place or format.remove:  # it writes several files, each as a whole
             write(path, mesh, encoding)
@@ -214,10 +218,12 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
             try:
                 return replace_coordinates(path, mesh, original, format_of(original.path))
             except CoordinatesError as error:
+                if not format_of(original.path).write:
+                    raise FileError(path, f"cannot be written: {error}", _OTHER_FORMAT) from None
                 _check_content(path, original, str(error))
                 reason = (_anew(str(error), original),)
             except ChangedFileError as error:
-                if is_same_file(path, original.path):
+                if is_same_file(path, original.path) or not format_of(original.path).write:
                     raise
                 reason = (_anew(f"{error.path.name} {error.problem}", original),)
         elif original is not None and is_same_file(path, original.path):

@@ -140,6 +140,9 @@ def writable_format(path: Path, source: Path | None = None) -> Format:
         for format in formats():
             if format.write and path.suffix.lower() in format.suffixes:
                 return format
+    given = format_of(source) if source is not None and source.is_file() else None
+    if given is not None and given.locate and path.suffix.lower() in given.suffixes:
+        return given  # a copy with other coordinates
     copied = None if source is None else format_by_place(source)
     if copied is not None and copied.write:
         return copied
@@ -179,12 +182,6 @@ _KINDS = (
         rb"\s+-1\s+(?:151|15|164|2411|2420|780)\b",
         "is a universal file (UNV)",
         "Convert it with Gmsh: gmsh MESH.unv -save -o MESH.msh.",
-    ),
-    (rb"#RADIOSS STARTER", "is a deck of Radioss", "Export it from HyperMesh as Nastran or LS-DYNA."),
-    (
-        rb"\s*(?:<\?xml[^>]*>\s*)?<febio_spec",
-        "is a deck of FEBio",
-        "Export the mesh from FEBio Studio as VTK or LS-DYNA (.k).",
     ),
 )
 

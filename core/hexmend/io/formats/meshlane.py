@@ -1,4 +1,4 @@
-"""Formats that the library meshlane reads and writes: XDMF, Tecplot, AVS-UCD, Ansys MAPDL and Netgen."""
+"""Formats that the library meshlane reads and writes: XDMF, Tecplot, AVS-UCD and Netgen."""
 
 from __future__ import annotations
 
@@ -127,7 +127,6 @@ _FORMATS = {
         "AVS-UCD", "avsucd", (".avs", ".ucd"), _COMMENTS + rb"\d+[ \t]+\d+[ \t]+\d+[ \t]+\d+[ \t]+\d+[ \t]*\r?\n",
         _LINEAR, _CELLS,
     ),
-    "ansys": LibraryFormat("Ansys MAPDL", "ansysInp", (".cdb",), rb".*?(?:/PREP7|NBLOCK)"),
     "netgen": LibraryFormat("Netgen", "netgen", (".vol",), rb"\s*(?:#[^\n]*\n\s*)*mesh3d"),
 }  # fmt: skip
 

@@ -41,6 +41,12 @@ class DeckCoordinates:
         points = np.concatenate([one.cards(widths).reals(first, first + 3) for one in parts])
         return cls(parts[0].files, points, TextFields.joined([one.fields(widths) for one in parts], three))
 
+    @classmethod
+    def joined(cls, parts: Sequence[DeckCoordinates]) -> DeckCoordinates:
+        """Join the nodes of blocks of different formats."""
+        points = np.concatenate([one.points for one in parts])
+        return cls(parts[0].files, points, TextFields.joined([one.fields for one in parts]))
+
     def write(self, files: AtomicFiles, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the deck and its files with new coordinates; see `LocatedCoordinates.write`."""
         changed = ~(points == self.points)  # not a number differs from everything

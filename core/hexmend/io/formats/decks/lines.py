@@ -42,6 +42,10 @@ class CardLines:
         """Return the keyword with some of its lines."""
         return replace(self, begin=self.begin[which], end=self.end[which])
 
+    def filled(self) -> CardLines:
+        """Return the keyword with the lines that are not blank."""
+        return self.rows(np.array([bool(text) for text in self.texts()], dtype=bool))
+
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
         return self.files.root.error(f"{self.name} in {self.files.place(self.at)} {problem}", remedy)
@@ -115,6 +119,7 @@ def keyword_lines(
         begins = (breaks[low:high] + 1)[: len(ends)]
         lines = [data[a:b] for a, b in zip(begins.tolist(), ends.tolist(), strict=True)]
         kept = np.array([line[:1] != comment and (with_blank or bool(line.strip())) for line in lines], dtype=bool)
+        kept &= begins < stop
         yield match.start(), match[1].decode("latin-1").strip(), begins[kept], ends[kept]
 
 
