@@ -41,6 +41,14 @@ def dimension(kind: str) -> int:
     return 3 if kind in HEX_KINDS else CELL_KINDS[kind].dimension
 
 
+#: Order of nodes of formats that list the mid-nodes of vertical edges before those of the upper face: see
+#: `to_vtk_order`.
+VERTICAL_EDGES_FIRST: dict[str, list[int]] = {
+    "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
+    "wedge15": [*range(9), 12, 13, 14, 9, 10, 11],
+}
+
+
 def to_vtk_order(nodes: np.ndarray, kind: str, order: Mapping[str, Sequence[int] | np.ndarray]) -> np.ndarray:
     """Reorder the nodes of cells from the order of a format to VTK's.
 

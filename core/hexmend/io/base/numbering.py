@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import ID, Block, from_mesh
+from hexmend.io.base.content import ID, Block, Content, from_mesh
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.mesh.mesh import Mesh
 
 #: Ids are smaller than this in limit formats.
 ID_LIMIT = 2**31
+#: And smaller than this where a column holds 8 digits.
+COLUMN_LIMIT = 100_000_000
 
 
 def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.ndarray:
@@ -145,6 +147,21 @@ def element_ids(blocks: Sequence[Block], limit: int = ID_LIMIT) -> list[np.ndarr
             following += len(block)
         answer.append(numbers)
     return answer
+
+
+def ids_of_columns(path: Path, content: Content) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Choose the ids of nodes and of the elements of each block for a file with columns of 8 digits.
+
+    Raises
+    ------
+    FileError
+        For more nodes or elements than numbers of 8 digits.
+    """
+    of_nodes = node_ids(dict(content.node_data), len(content.points), COLUMN_LIMIT)
+    of_elements = element_ids(content.blocks, COLUMN_LIMIT)
+    if max(int(of_nodes.max()), *(int(ids.max(initial=0)) for ids in of_elements)) >= COLUMN_LIMIT:
+        raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
+    return of_nodes, of_elements
 
 
 def first_out_of_range(values: np.ndarray, count: int) -> int | None:

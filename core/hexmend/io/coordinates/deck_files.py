@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from hexmend.errors import FileError, HexmendError
+from hexmend.errors import FileError
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import IncludedFileError, is_same_file
@@ -120,32 +120,8 @@ class DeckFile:
         return self.included[-1]
 
 
-def included_files(path: Path, read: Callable[[Path], DeckFile]) -> set[Path]:
-    """Find the files that a deck includes, and those that they include.
-
-    Parameters
-    ----------
-    path : Path
-    read : callable
-        read(path) reads a deck with its files.
-
-    Returns
-    -------
-    set of Path
-        With links resolved; empty for a file that is missing or cannot be read.
-    """
-    try:
-        return {one.path.resolve() for one in list(read(path).walk())[1:]}
-    except (HexmendError, OSError):
-        return set()
-
-
 def write_files(
-    root: DeckFile,
-    edits: Mapping[DeckFile, Edits],
-    target: Path,
-    files: AtomicFiles,
-    read: Callable[[Path], DeckFile],
+    root: DeckFile, edits: Mapping[DeckFile, Edits], target: Path, files: AtomicFiles, old: set[Path]
 ) -> tuple[str, ...]:
     """Write a deck and the files that it includes with other coordinates.
 
@@ -160,8 +136,8 @@ def write_files(
     target : Path
     files : AtomicFiles
         As of `LocatedCoordinates.write`.
-    read : callable
-        As of `included_files`.
+    old : set of Path
+        Files that the deck at the target includes.
 
     Returns
     -------
@@ -187,7 +163,7 @@ def write_files(
         own.get(root, Edits()).write(file, root.given)
         changed = sorted(one.path.name for one in own if one is not root)
         return (f"Coordinates are replaced in {', '.join(changed)} too.",) if changed else ()
-    renamed = _new_names(root, own, target, included_files(target, read))
+    renamed = _new_names(root, own, target, old)
     notes = []
     for one in reversed(list(root.walk())[1:]):  # included files before those that include them
         if one in renamed:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from hexmend.errors import HexmendError
 from hexmend.io.base.cursor import read_text_bytes
-from hexmend.io.coordinates import deck_files
 from hexmend.io.coordinates.deck_files import DeckFile, write_files
 from hexmend.io.coordinates.text_coordinates import Edits
 from hexmend.io.storage.atomic import AtomicFiles
@@ -35,8 +36,8 @@ class JoinedFiles:
     path : Path
     inclusions : callable
         inclusions(data) finds the cards in a file that include others, in order.
-    end : callable
-        end(data) returns the offset at which a file ends.
+    end : pattern, optional
+        The card at which a file ends.
 
     Attributes
     ----------
@@ -51,7 +52,10 @@ class JoinedFiles:
     """
 
     def __init__(
-        self, path: Path, inclusions: Callable[[bytes], Iterable[Inclusion]], end: Callable[[bytes], int] = len
+        self,
+        path: Path,
+        inclusions: Callable[[bytes], Iterable[Inclusion]] = lambda data: (),
+        end: re.Pattern[bytes] | None = None,
     ):
         self.root, self._inclusions, self._end = DeckFile(path, read_text_bytes(path)), inclusions, end
         self._size, self._begins, self._pieces = 0, list[int](), list[tuple[DeckFile, int]]()
@@ -60,7 +64,8 @@ class JoinedFiles:
         self.data = b"".join(texts)
 
     def _add(self, file: DeckFile, texts: list[bytes]) -> None:
-        at, end = 0, self._end(file.data)
+        last = self._end.search(file.data) if self._end else None
+        at, end = 0, last.start() if last else len(file.data)
         for found in self._inclusions(file.data[:end]):
             self._add_piece(file, at, found.begin, texts)
             for name in found.names:
@@ -91,8 +96,8 @@ class JoinedFiles:
             file, at = self.locate(begin)
             rows.setdefault(file, []).append((at, at + end - begin, text))
         own = {file: Edits.of(parts) for file, parts in rows.items()}
-        joined = partial(JoinedFiles, inclusions=self._inclusions, end=self._end)
-        return write_files(self.root, own, target, files, lambda path: joined(path).root)
+        old = included_files(partial(JoinedFiles, inclusions=self._inclusions, end=self._end), target)
+        return write_files(self.root, own, target, files, old)
 
     def place(self, at: int) -> str:
         """Name the line of an offset, such as "line 12", or "line 3 of nodes.bdf" in an included file."""
@@ -100,6 +105,21 @@ class JoinedFiles:
         return file.place(own)
 
 
-def included_files(path: Path, join: Callable[[Path], JoinedFiles]) -> set[Path]:
-    """Find the files that a deck includes; see `hexmend.io.coordinates.deck_files.included_files`."""
-    return deck_files.included_files(path, lambda one: join(one).root)
+def included_files(join: Callable[[Path], JoinedFiles], path: Path) -> set[Path]:
+    """Find the files that a deck includes, and those that they include.
+
+    Parameters
+    ----------
+    join : callable
+        join(path) reads a deck with its files.
+    path : Path
+
+    Returns
+    -------
+    set of Path
+        With links resolved; empty for a file that is missing or cannot be read.
+    """
+    try:
+        return {one.path.resolve() for one in list(join(path).root.walk())[1:]}
+    except (HexmendError, OSError):
+        return set()

@@ -66,7 +66,7 @@ def read(path: Path) -> Mesh:
     MeshError
         From `Mesh`.
     """
-    files, model = JoinedFiles(path, lambda data: ()), DeckModel(path, "NBLOCK", "a database of Ansys MAPDL")
+    files, model = JoinedFiles(path), DeckModel(path, "NBLOCK", "a database of Ansys MAPDL")
     types = {int(found[1]): int(found[2]) for found in _TYPE.finditer(files.data)}
     model.joining += dict.fromkeys(found[1].decode().upper() for found in _JOINING.finditer(files.data))
     for block in _blocks(files):
@@ -87,7 +87,7 @@ def read(path: Path) -> Mesh:
 
 def locate(path: Path) -> DeckCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    blocks = [block for block in _blocks(JoinedFiles(path, lambda data: ())) if block.name == "NBLOCK"]
+    blocks = [block for block in _blocks(JoinedFiles(path)) if block.name == "NBLOCK"]
     parts = [DeckCoordinates.of_lines([block.lines], block.columns, _first_coordinate(block)) for block in blocks]
     return DeckCoordinates.joined(parts)
 

@@ -53,7 +53,7 @@ def read(path: Path) -> Mesh:
     MeshError
         From `Mesh`.
     """
-    files, model = _join(path), DeckModel(path, "<Nodes>", "a model of FEBio")
+    files, model = JoinedFiles(path), DeckModel(path, "<Nodes>", "a model of FEBio")
     for number, (name, head, begin, body) in enumerate(_sections(files), 1):
         title = _attribute(head, "name") or _attribute(head, "elset")
         if name == "Nodes":
@@ -79,13 +79,9 @@ def read(path: Path) -> Mesh:
 
 def locate(path: Path) -> DeckCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    files = _join(path)
+    files = JoinedFiles(path)
     found = [_entries(files, name, begin, body) for name, _, begin, body in _sections(files) if name == "Nodes"]
     return DeckCoordinates.of_lines([entries["node"][1] for entries in found], (1,) * 3, 0)
-
-
-def _join(path: Path) -> JoinedFiles:
-    return JoinedFiles(path, lambda data: ())
 
 
 def _sections(files: JoinedFiles) -> Iterator[tuple[str, bytes, int, bytes]]:

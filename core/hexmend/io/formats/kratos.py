@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base import numbering
-from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_other_kinds, node_count, to_mesh
+from hexmend.io.base.content import from_mesh, node_count, to_mesh
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, parse_numbers
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
-from hexmend.io.base.remedies import DAMAGED, check_suffix, some_names, unread_note
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.formats.decks.model import DeckModel
 from hexmend.mesh.mesh import Mesh
 
 _BLOCK = re.compile(rb"^[ \t]*Begin[ \t]+(\w+)[ \t]*([^\n]*)\n(.*?)^[ \t]*End[ \t]+\1\b", re.MULTILINE | re.DOTALL)
@@ -40,29 +40,23 @@ def read(path: Path) -> Mesh:
     """
     text = _COMMENT.sub(b"", read_text_bytes(path).replace(b"\r\n", b"\n"))
     found = [(one[1].decode("latin-1"), one[2], one[3]) for one in _BLOCK.finditer(text)]
-    nodes = [_rows(path, name, body, 4, numbers=1) for name, _, body in found if name == "Nodes"]
-    if not nodes:
-        raise FileError(path, "has no block of Nodes with its End", check_suffix("a model part of Kratos"))
-    if text.count(b"Begin ") != text.count(b"End "):
-        raise FileError(path, "has a block without its End", DAMAGED)
-    table = np.concatenate(nodes)
-    ids, blocks, unread = table[:, 0].astype(np.int64), [], Counter[str]()
+    model = DeckModel(path, "block of Nodes with its End", "a model part of Kratos")
     for name, title, body in found:
         width = _WIDTH.search(title)
-        table_of_kinds = {"Elements": _ELEMENTS, "Conditions": _CONDITIONS}.get(name, {})
-        kind = table_of_kinds.get(int(width[1])) if width else None
-        if kind is None:
-            unread[f"{name} {title.decode('latin-1').strip()}"] += 1
-            continue
-        width = 2 + node_count(kind)
-        rows = _rows(path, name, body, width, numbers=width).astype(np.int64)
-        groups = {f"properties {one}": np.flatnonzero(rows[:, 1] == one) for one in np.unique(rows[:, 1]).tolist()}
-        groups = groups if len(groups) > 1 or "properties 0" not in groups else {}
-        blocks.append(Block(kind, numbering.find_ids(path, ids, rows[:, 2:], "node"), {ID: rows[:, 0].copy()}, groups))
-    del unread["Nodes "]
-    notes = (unread_note(f"blocks of other kinds ({some_names(unread)})"),) if unread else ()
-    points = np.ascontiguousarray(table[:, 1:])
-    return to_mesh(path, Content(points, merge_other_kinds(blocks), {ID: ids}, notes=notes, unread=unread))
+        kind = {"Elements": _ELEMENTS, "Conditions": _CONDITIONS}.get(name, {}).get(int(width[1])) if width else None
+        if name == "Nodes":
+            table = _rows(path, name, body, 4, numbers=1)
+            model.nodes.append((table[:, 0].astype(np.int64), np.ascontiguousarray(table[:, 1:])))
+        elif kind is None:
+            model.others[f"{name} {title.decode('latin-1').strip()}"] += 1
+        else:
+            n_numbers = 2 + node_count(kind)
+            rows = _rows(path, name, body, n_numbers, numbers=n_numbers).astype(np.int64)
+            model.add_elements(kind, np.zeros(len(rows)), *rows[:, :2].T, rows[:, 2:])
+    model.given_nodes()
+    if text.count(b"Begin ") != text.count(b"End "):
+        raise FileError(path, "has a block without its End", DAMAGED)
+    return to_mesh(path, model.content(lambda number: f"properties {number}" if number else ""))
 
 
 def _rows(path: Path, name: str, body: bytes, width: int, numbers: int) -> np.ndarray:

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.content import to_mesh, to_vtk_order
+from hexmend.io.base.content import VERTICAL_EDGES_FIRST, to_mesh, to_vtk_order
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.coordinates import joined_files
-from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
 from hexmend.io.formats.decks.coordinates import DeckCoordinates
 from hexmend.io.formats.decks.lines import CardLines, keyword_lines
 from hexmend.io.formats.decks.model import DeckModel, solids_by_width
@@ -33,8 +33,6 @@ _ELEMENTS = {
     "SHELL": ((4,), {4: "quad", 3: "triangle"}), "SH3N": ((3,), {3: "triangle"}), "QUAD": ((4,), {4: "quad"}),
     "TRIA": ((3,), {3: "triangle"}), "TRUSS": ((2,), {2: "line"}),
 }  # fmt: skip
-#: VTK's order of nodes: vtk = radioss[ORDER[kind]]; mid-nodes of vertical edges come before those of the upper face.
-_ORDER = {"hex20": [*range(12), *range(16, 20), *range(12, 16)]}
 #: Sets of a model, and whether members are first and last numbers, by the beginning of a block.
 _SETS = {
     "GRNOD/NODE": ("nodes", False), "GRNOD/NODENS": ("nodes", False), "GRNOD/GENE": ("nodes", True),
@@ -72,19 +70,13 @@ def locate(path: Path) -> DeckCoordinates:
 
 
 def _join(path: Path) -> JoinedFiles:
-    return JoinedFiles(path, _inclusions, _end)
+    return JoinedFiles(path, _inclusions, _END)
 
 
 def _inclusions(data: bytes) -> Iterator[Inclusion]:
     for found in _INCLUDE.finditer(data):
-        yield Inclusion(
-            found.start(), *found.span(), "#include", [(found[1].decode("utf-8", "replace"), *found.span(1))]
-        )
-
-
-def _end(data: bytes) -> int:
-    found = _END.search(data)
-    return found.start() if found else len(data)
+        name = found[1].decode("utf-8", "replace")
+        yield Inclusion(found.start(), *found.span(), "#include", [(name, *found.span(1))])
 
 
 def _blocks(path: Path) -> Iterator[CardLines]:
@@ -141,7 +133,7 @@ def _read_elements(model: DeckModel, lines: CardLines, name: str, part: int) -> 
     n_left = len(nodes)
     for kind, which, own in solids_by_width(nodes, kinds):
         n_left -= len(which)
-        own = to_vtk_order(own, kind, _ORDER)
+        own = to_vtk_order(own, kind, VERTICAL_EDGES_FIRST)
         model.add_elements(kind, lines.begin[which * step], first[which, 0], part, own)
     if n_left:
         raise lines.error(f"has {count_phrase(n_left, 'element')} of another number of nodes", DAMAGED)
@@ -157,5 +149,5 @@ register(
     exact=False,  # a field of a coordinate has 20 columns
     matches=lambda head: re.match(rb"(?:#[^\n]*\n)*(?:#RADIOSS STARTER|/BEGIN|/NODE\s*\n)", head) is not None,
     locate=locate,
-    included=lambda path: joined_files.included_files(path, _join),
+    included=partial(included_files, _join),
 )

@@ -53,36 +53,12 @@ def test_nodes_of_kratos_have_numbers_of_their_own(tmp_path):
             read_content(tmp_path / "b.mdpa", text.replace(old, words if "End" not in words else ""))
 
 
-CDB = """/PREP7
-ET,1,185
-NBLOCK,6,SOLID,8,8
-(3i9,6e21.13e3)
-{nodes}N,R5.3,LOC,-1,
-EBLOCK,19,SOLID,1,1
-(19i9)
-{element}
-       -1
-FINISH
-"""
-
-
-def test_blocks_of_ansys_are_read(tmp_path):
-    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-    nodes = "".join(f"{k:9d}{0:9d}{0:9d}{x:21.13E}{y:21.13E}{z:21.13E}\n" for k, (x, y, z) in enumerate(corners, 11))
-    element = "".join(f"{one:9d}" for one in [1, 1, 1, 1, 0, 0, 0, 0, 8, 0, 1, *range(11, 19)])
-    mesh = read_content(tmp_path / "a.cdb", CDB.format(nodes=nodes, element=element))
-    assert mesh.hexes.tolist() == [list(range(8))]
-    assert mesh.points.tolist() == [list(map(float, corner)) for corner in corners]
-
-
 @pytest.mark.parametrize(("name", "head", "words"), [
     ("a.e", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "a pointer of Git LFS, .* git lfs pull"),
     ("a.mesh", "MFEM mesh v1.0\n\ndimension\n3\n", "a mesh of MFEM. .*mesh-explorer"),
     ("a.msh", '(0 "GAMBIT to Fluent File")\n(2 3)\n', "a mesh of Fluent. .*fluent3DMeshToFoam"),
     ("a.mphtxt", "# Created by COMSOL Multiphysics\n", "a mesh of COMSOL. .*NASTRAN"),
     ("a.unv", "    -1\n  2411\n", "a universal file .*gmsh MESH.unv -save -o MESH.msh"),
-    ("a.rad", "#RADIOSS STARTER\n", "a deck of Radioss. .*LS-DYNA"),
-    ("a.feb", '<?xml version="1.0"?>\n<febio_spec version="4.0">', "a deck of FEBio. .*FEBio Studio"),
 ])  # fmt: skip
 def test_files_of_other_programs_are_refused_with_a_way_out(name, head, words, tmp_path):
     with pytest.raises(FileError, match=f"is {words}") as error:

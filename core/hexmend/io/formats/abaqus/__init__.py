@@ -34,5 +34,5 @@ register(
     limitations=deferred("hexmend.io.formats.abaqus.writer:limitations"),
     matches=_matches,
     locate=deferred("hexmend.io.formats.abaqus.reader:locate"),
-    included=deferred("hexmend.io.formats.abaqus.deck:included_files"),
+    included=deferred("hexmend.io.formats.abaqus.deck:included_files_of"),
 )

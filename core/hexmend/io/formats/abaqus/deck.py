@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +16,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.coordinates import joined_files
-from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
 from hexmend.io.coordinates.text_coordinates import word_ranges
 from hexmend.io.formats.decks.lines import CardLines, trimmed
 
@@ -202,13 +201,12 @@ def read_deck(path: Path) -> Deck:
     return Deck(path, join(path))
 
 
-def included_files(path: Path) -> set[Path]:
-    """Find the files that a deck includes."""
-    return joined_files.included_files(path, join)
-
-
 def _inclusions(data: bytes) -> Iterator[Inclusion]:
     for first, end, name, options in keywords(data):
         if name in _INCLUDING and "INPUT" in options:
             file = unquoted(options["INPUT"]), *_INPUT.search(data, first).span(1)
             yield Inclusion(first, first if name == "INCLUDE" else end, end, f"*{name}", [file])
+
+
+#: included_files_of(path) finds the files that a deck includes.
+included_files_of = partial(included_files, join)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import to_vtk_order
+from hexmend.io.base.content import VERTICAL_EDGES_FIRST, to_vtk_order
 from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.zone import CGNSNode
@@ -33,12 +33,9 @@ TYPES = {
 MIXED, NGON, NFACE = 20, 22, 23
 
 #: VTK's node order: vtk = cgns[ORDER[kind]]; kinds without an entry have one order in both.
-ORDER = {
-    "hex20": np.array([*range(12), *range(16, 20), *range(12, 16)]),
-    "hex27": np.array([*range(12), *range(16, 20), *range(12, 16), 24, 22, 21, 23, 20, 25, 26]),
-    "wedge15": np.array([*range(9), 12, 13, 14, 9, 10, 11]),
-    "pyramid13": np.arange(13),
-}
+ORDER = VERTICAL_EDGES_FIRST | {
+    "hex27": [*VERTICAL_EDGES_FIRST["hex20"], 24, 22, 21, 23, 20, 25, 26], "pyramid13": [*range(13)],
+}  # fmt: skip
 
 #: Face, of `hexmend.mesh.hexahedron.FACES`, of a hex's faces 1 to 6.
 FACE_OF_NUMBER = np.array([4, 2, 1, 3, 0, 5])

@@ -75,4 +75,4 @@ def number_text(value: float, columns: int) -> str:
 
 
 def _digits(columns: int) -> str:
-    return f"Fields of {columns} columns hold {columns - 7} to {columns - 2} digits of the new coordinates."
+    return f"Fields of {columns} columns hold {columns - 7} to {min(columns - 2, 17)} digits of the new coordinates."

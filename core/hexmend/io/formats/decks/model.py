@@ -75,7 +75,7 @@ class DeckModel:
             Numbers of nodes in VTK's order.
         """
         if len(ids):
-            rows = np.column_stack([places, ids, np.broadcast_to(parts, ids.shape), nodes])
+            rows = np.column_stack([places, ids, np.broadcast_to(parts, ids.shape), nodes]).astype(np.int64, copy=False)
             self._elements.setdefault(kind, []).append(rows)
 
     def add_set(self, kind: str, name: str, members: np.ndarray) -> None:

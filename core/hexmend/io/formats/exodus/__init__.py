@@ -12,7 +12,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
 from hexmend.io.base.format import Capability, deferred, register
 from hexmend.io.formats.exodus import netcdf3
-from hexmend.io.formats.exodus.records import IDS, INFORMATION, QA
+from hexmend.io.formats.exodus.records import IDS
 from hexmend.mesh.mesh import Mesh
 
 
@@ -39,7 +39,7 @@ register(
     read=read,
     write=deferred("hexmend.io.formats.exodus.writer:write"),
     capabilities=frozenset(Capability) - {Capability.EMPTY_SETS, Capability.VERTICES, Capability.FIELD_DATA},
-    stored_names=frozenset({IDS, QA, INFORMATION}),
+    stored_names=frozenset({IDS}),
     limitations=deferred("hexmend.io.formats.exodus.writer:limitations"),
     matches=matches,
     locate=deferred("hexmend.io.formats.exodus.reader:locate"),

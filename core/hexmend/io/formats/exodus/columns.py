@@ -18,13 +18,11 @@ from itertools import chain, count
 import numpy as np
 
 from hexmend.io.base.capabilities import make_unique
-from hexmend.io.base.content import ID
+from hexmend.io.base.content import ID, VERTICAL_EDGES_FIRST
 
 #: VTK's node order: vtk = exodus[ORDER[kind]]; kinds without an entry have one order in both.
-ORDER = {
-    "hex20": np.array([*range(12), *range(16, 20), *range(12, 16)]),
-    "hex27": np.array([*range(12), *range(16, 20), *range(12, 16), 23, 24, 25, 26, 21, 22, 20]),
-    "wedge15": np.array([*range(9), 12, 13, 14, 9, 10, 11]),
+ORDER = VERTICAL_EDGES_FIRST | {
+    "hex27": [*VERTICAL_EDGES_FIRST["hex20"], 23, 24, 25, 26, 21, 22, 20],
 }
 
 #: Face, of `hexmend.mesh.hexahedron.FACES`, of a hex's sides 1 to 6.

@@ -19,7 +19,7 @@ from hexmend.io.coordinates.binary_coordinates import BinaryCoordinates, BinaryP
 from hexmend.io.coordinates.located import LocatedCoordinates
 from hexmend.io.formats.exodus.columns import FACE_OF_SIDE, ORDER, PINS_PROPERTY, join_columns, kinds_of
 from hexmend.io.formats.exodus.netcdf3 import is_classic
-from hexmend.io.formats.exodus.records import id_lines, read_records, unread_notes
+from hexmend.io.formats.exodus.records import id_lines, unread_notes
 from hexmend.io.formats.exodus.store import CheckedVariables, ExodusStore, HDF5Store, open_store
 from hexmend.io.storage import subprocess_reader
 
@@ -66,7 +66,7 @@ class _Reader:
         self.add_element_sets(blocks, elements)
         hexes = [numbers for block, numbers in zip(blocks, elements, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
-        blocks, fields = merge_other_kinds(blocks), {**id_lines(self.id_names), **read_records(self.store)}
+        blocks, fields = merge_other_kinds(blocks), id_lines(self.id_names)
         notes = (*self.notes, *unread_notes(self.store))
         return Content(points, blocks, node_data, node_sets, side_sets, pinned, fields, notes, self.unread)
 

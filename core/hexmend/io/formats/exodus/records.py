@@ -1,17 +1,16 @@
-"""QA and information records of an ExodusII file, and a note on data that Hexmend does not keep.
+"""Note on the data of an ExodusII file that Hexmend does not keep.
 
 Ids of element blocks and sets, which solvers refer to: kept as field data with lines such as "ns 100 inlet".
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import count
 
 import numpy as np
 
 from hexmend.io.base.remedies import unread_note
-from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter, characters
 from hexmend.io.formats.exodus.store import ExodusStore
 
 #: Name of the field data with the lines: entity ("eb", "ns", "els" or "ss"), id, and name in Hexmend.
@@ -63,12 +62,6 @@ def assigned_ids(lines: object, entity: str, names: Sequence[str]) -> list[int]:
     return [next(unused) if number is None else number for number in ids]
 
 
-#: Names of field data: QA records, four strings each (program, version, date, time), and information records.
-QA, INFORMATION = "exodus:qa", "exodus:information"
-
-#: Bytes of a string and of a line, with the zero at the end (MAX_STR_LENGTH and MAX_LINE_LENGTH).
-_STRING, _LINE = 33, 81
-
 #: Data that are not kept, by the dimension that counts them.
 _NOT_KEPT = {
     "num_glo_var": "global variables", "num_nset_var": "results of node sets", "num_sset_var": "results of side sets",
@@ -76,27 +69,6 @@ _NOT_KEPT = {
     "num_node_maps": "further maps of nodes", "num_elem_maps": "further maps of elements",
     "num_cframes": "coordinate frames",
 }  # fmt: skip
-
-
-def read_records(store: ExodusStore) -> dict[str, list[str]]:
-    """Field data of the QA and information records of a file."""
-    found = {}
-    for name, variable, axes in ((QA, "qa_records", 3), (INFORMATION, "info_records", 2)):
-        values = store.array(variable) if variable in store else np.zeros(0)
-        if values.dtype.kind == "S" and values.ndim == axes and values.size:
-            rows = values.reshape(-1, values.shape[-1])
-            found[name] = [row.tobytes().split(b"\0")[0].decode("utf-8", errors="replace") for row in rows]
-    return found
-
-
-def add_records(file: ClassicWriter, field_data: Mapping[str, object]) -> None:
-    """Add the records that `read_records` found; field data of other types are passed over."""
-    qa, lines = _strings(field_data.get(QA)), _strings(field_data.get(INFORMATION))
-    if qa and len(qa) % 4 == 0:
-        records = characters(qa, _STRING).reshape(-1, 4, _STRING)
-        file.add_variable("qa_records", {"num_qa_rec": len(records), "four": 4, "len_string": _STRING}, records)
-    if lines:
-        file.add_variable("info_records", {"num_info": len(lines), "len_line": _LINE}, characters(lines, _LINE))
 
 
 def unread_notes(store: ExodusStore) -> list[str]:
@@ -114,8 +86,3 @@ def _has_factors(store: ExodusStore, set_name: str) -> bool:
     name = f"dist_fact_{set_name}"
     values = store.array(name) if name in store else np.ones(1)
     return values.dtype.kind in "iuf" and bool((values != 1).any())
-
-
-def _strings(value: object) -> list[str]:
-    valid = isinstance(value, list | tuple) and all(isinstance(text, str) for text in value)
-    return list(value) if valid else []

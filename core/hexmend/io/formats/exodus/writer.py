@@ -29,7 +29,7 @@ from hexmend.io.formats.exodus.columns import (
     columns,
 )
 from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
-from hexmend.io.formats.exodus.records import IDS, add_records, assigned_ids
+from hexmend.io.formats.exodus.records import IDS, assigned_ids
 from hexmend.mesh.mesh import Mesh
 
 
@@ -50,7 +50,6 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     attributes: dict[str, object] = dict.fromkeys(("api_version", "version"), np.float32(8.03))
     attributes |= {"floating_point_word_size": np.int32(8), "file_size": np.int32(1), "int64_status": np.int32(0)}
     file = ClassicWriter(attributes | {"title": mesh.name or "Hexmend"})
-    add_records(file, mesh.field_data)
     _add_points(file, mesh)
     _add_blocks(file, mesh, blocks)
     _add_ids(file, mesh, parts)

@@ -32,5 +32,5 @@ register(
     exact=False,  # a column of a coordinate has room for 16 letters
     matches=lambda head: _FIRST.match(head) is not None,
     locate=deferred("hexmend.io.formats.lsdyna.reader:locate"),
-    included=deferred("hexmend.io.formats.lsdyna.deck:included_files"),
+    included=deferred("hexmend.io.formats.lsdyna.deck:included_files_of"),
 )

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
-from hexmend.io.coordinates import joined_files
-from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
 from hexmend.io.formats.decks.lines import CardLines, keyword_lines
 
 _INCLUDE = re.compile(rb"^\*INCLUDE[ \t]*\n((?:(?!\*)[^\n]*(?:\n|\Z))*)", re.IGNORECASE | re.MULTILINE)
@@ -20,12 +20,7 @@ _LONG, _WIDE_IDS = {8: 20, 10: 20, 16: 20}, {8: 10}
 
 def join(path: Path) -> JoinedFiles:
     """Read a deck with all files that it includes; see `JoinedFiles`."""
-    return JoinedFiles(path, _inclusions, _end)
-
-
-def included_files(path: Path) -> set[Path]:
-    """Find the files that a deck includes."""
-    return joined_files.included_files(path, join)
+    return JoinedFiles(path, _inclusions, _END)
 
 
 def _inclusions(data: bytes) -> Iterator[Inclusion]:
@@ -35,11 +30,6 @@ def _inclusions(data: bytes) -> Iterator[Inclusion]:
             name = re.sub(rb" \+[ \t]*\n[ \t]*", b"", one[1]).rstrip()
             names.append((name.decode("utf-8", errors="replace"), one.start(1), one.start(1) + len(one[1].rstrip())))
         yield Inclusion(found.start(), *found.span(), "*INCLUDE", names)
-
-
-def _end(data: bytes) -> int:
-    found = _END.search(data)
-    return found.start() if found else len(data)
 
 
 def keywords(files: JoinedFiles) -> Iterator[CardLines]:
@@ -59,3 +49,7 @@ def keywords(files: JoinedFiles) -> Iterator[CardLines]:
         if one.name.startswith("*INCLUDE_TRANSFORM"):
             raise one.error("moves and renumbers what it includes", "Write the deck with it expanded.")
         yield one
+
+
+#: included_files_of(path) finds the files that a deck includes.
+included_files_of = partial(included_files, join)

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.errors import FileError
 from hexmend.io.base import numbering
 from hexmend.io.base.content import from_mesh
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
@@ -19,8 +18,6 @@ _PLACES = {
     "hex": [*range(8)], "tetra": [0, 1, 2, 3, 3, 3, 3, 3], "pyramid": [0, 1, 2, 3, 4, 4, 4, 4],
     "wedge": [0, 2, 5, 3, 1, 1, 4, 4],
 }  # fmt: skip
-#: Numbers of nodes and elements are below this: a field of 8 columns holds 8 digits.
-_ID_LIMIT = 100_000_000
 _EXACT = 15
 
 
@@ -33,10 +30,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         For more nodes or elements than numbers of 8 digits.
     """
     content = reduce_order(from_mesh(mesh), _PLACES)
-    node_ids = numbering.node_ids(dict(content.node_data), len(content.points), _ID_LIMIT)
-    element_ids = numbering.element_ids(content.blocks, _ID_LIMIT)
-    if max(int(node_ids.max()), *(int(ids.max(initial=0)) for ids in element_ids)) >= _ID_LIMIT:
-        raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
+    node_ids, element_ids = numbering.ids_of_columns(path, content)
     with open(path, "w", encoding="utf-8") as file:
         file.write("*KEYWORD\n$ Written by Hexmend\n*NODE\n")
         for number, point in zip(node_ids.tolist(), content.points, strict=True):
@@ -63,7 +57,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def limitations(mesh: Mesh) -> list[str]:
     """List the ids, digits and mid-nodes of a mesh that a file cannot hold, in words."""
-    left = numbering.unsupported_ids(mesh, _ID_LIMIT)
+    left = numbering.unsupported_ids(mesh, numbering.COLUMN_LIMIT)
     texts = number_texts(mesh.points.ravel(), _EXACT)
     if [float(text) for text in texts] != mesh.points.ravel().tolist():
         left.append("last digits of coordinates (a field holds 9 to 14)")

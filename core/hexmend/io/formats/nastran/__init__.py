@@ -41,5 +41,5 @@ register(
     exact=False,  # a column has room for 12 to 14 digits
     matches=lambda head: _FIRST.match(head) is not None or _BEGIN.search(head) is not None,
     locate=deferred("hexmend.io.formats.nastran.coordinates:locate"),
-    included=deferred("hexmend.io.formats.nastran.bulk:included_files"),
+    included=deferred("hexmend.io.formats.nastran.bulk:included_files_of"),
 )

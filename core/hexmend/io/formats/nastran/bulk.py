@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import quoted
-from hexmend.io.coordinates import joined_files
-from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles
+from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
 from hexmend.io.formats.decks.cards import LONGEST, Cards
 
 #: Lines cut into fields at a time, which bounds the memory.
@@ -156,12 +156,7 @@ _END = re.compile(rb"^ENDDATA[^\n]*\n?", re.IGNORECASE | re.MULTILINE)
 
 def join(path: Path) -> JoinedFiles:
     """Read a deck with all files that it includes; see `JoinedFiles`."""
-    return JoinedFiles(path, _inclusions, _end)
-
-
-def included_files(path: Path) -> set[Path]:
-    """Find the files that a deck includes."""
-    return joined_files.included_files(path, join)
+    return JoinedFiles(path, _inclusions, _END)
 
 
 def _inclusions(data: bytes) -> Iterator[Inclusion]:
@@ -171,6 +166,5 @@ def _inclusions(data: bytes) -> Iterator[Inclusion]:
         yield Inclusion(found.start(), *found.span(), "INCLUDE", [(text, *found.span(1))])
 
 
-def _end(data: bytes) -> int:
-    found = _END.search(data)
-    return found.end() if found else len(data)
+#: included_files_of(path) finds the files that a deck includes.
+included_files_of = partial(included_files, join)

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.errors import FileError
 from hexmend.io.base import numbering
-from hexmend.io.base.content import Block, from_mesh, from_vtk_order, node_count
+from hexmend.io.base.content import VERTICAL_EDGES_FIRST, Block, from_mesh, from_vtk_order, node_count
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.mesh.mesh import Mesh
 
@@ -32,10 +31,6 @@ KINDS_OF_CARD = {
     "CTRIA3": ("triangle", ""), "CTRIAR": ("triangle", ""), "CTRIA6": ("triangle", "triangle6"),
     "CBAR": ("line", ""), "CBEAM": ("line", ""), "CROD": ("line", ""), "CTUBE": ("line", ""), "PLOTEL": ("line", ""),
 }  # fmt: skip
-
-#: VTK's node order: vtk = nastran[ORDER[kind]]. Nastran lists the mid-nodes of vertical edges before those of the
-#: upper face; kinds without an entry have one order in both.
-ORDER = {"hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15], "wedge15": [*range(9), 12, 13, 14, 9, 10, 11]}
 
 #: Solid elements, whose cards have nothing behind the nodes.
 SOLIDS = ("CHEXA", "CTETRA", "CPENTA", "CPYRAM", "CPYRA")
@@ -108,10 +103,6 @@ def is_exact(value: float) -> bool:
     return float(f"{text[:sign]}e{text[sign:]}" if sign > 0 else text) == value
 
 
-#: Numbers of nodes and elements are below this: a field of 8 columns holds 8 digits.
-_ID_LIMIT = 100_000_000
-
-
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write grid points and elements; mid-nodes of faces and of the inside of hexes are left out.
 
@@ -124,10 +115,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """
     content = reduce_order(from_mesh(mesh), CARD_OF_KIND)
     blocks = content.blocks
-    node_ids = numbering.node_ids(dict(content.node_data), len(content.points), _ID_LIMIT)
-    element_ids = numbering.element_ids(blocks, _ID_LIMIT)
-    if max(int(node_ids.max()), *(int(ids.max(initial=0)) for ids in element_ids)) >= _ID_LIMIT:
-        raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
+    node_ids, element_ids = numbering.ids_of_columns(path, content)
     used = {number for block in blocks for number in _properties(block)}
     default = next(number for number in count(1) if number not in used)
     with open(path, "w", encoding="ascii") as file:
@@ -139,7 +127,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             property_ids = np.full(len(block), default)
             for number, members in _properties(block).items():
                 property_ids[members] = number
-            nodes = from_vtk_order(node_ids[block.nodes], block.kind, ORDER)
+            nodes = from_vtk_order(node_ids[block.nodes], block.kind, VERTICAL_EDGES_FIRST)
             card = f"{CARD_OF_KIND[block.kind]:<8}"
             for row in np.column_stack([ids, property_ids, nodes]).tolist():
                 fields = "".join(f"{number:<8}" for number in row)
@@ -158,7 +146,9 @@ def limitations(mesh: Mesh) -> list[str]:
                 overlapping.add(number)
             in_later[members] = True
     words = ", ".join(f"property {number}" for number in sorted(overlapping))
-    left = numbering.unsupported_ids(mesh, _ID_LIMIT) + ([f"element sets that overlap ({words})"] if words else [])
+    left = numbering.unsupported_ids(mesh, numbering.COLUMN_LIMIT) + (
+        [f"element sets that overlap ({words})"] if words else []
+    )
     if not all(map(is_exact, mesh.points.ravel().tolist())):
         left.append("last digits of coordinates (a field holds 12 to 14)")
     return left + lost_mid_nodes(mesh, CARD_OF_KIND)

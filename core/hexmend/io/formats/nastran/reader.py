@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Content, to_vtk_order
+from hexmend.io.base.content import VERTICAL_EDGES_FIRST, Content, to_vtk_order
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.decks.cards import Cards
 from hexmend.io.formats.decks.model import DeckModel
 from hexmend.io.formats.nastran.bulk import BulkData, join
-from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, ORDER, SOLIDS, element_layout
+from hexmend.io.formats.nastran.cards import JOINING, KINDS_OF_CARD, NODES_OF_CARD, SOLIDS, element_layout
 from hexmend.io.formats.nastran.systems import CoordinateSystems
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
@@ -121,7 +121,7 @@ class BulkModel:
         full = (n_mid == n_nodes - n_corners) & bool(quadratic)
         for kind, chosen, width in ((linear, ~full, n_corners), (quadratic, full, n_nodes)):
             if chosen.any():
-                own = to_vtk_order(nodes[chosen, :width], kind, ORDER)
+                own = to_vtk_order(nodes[chosen, :width], kind, VERTICAL_EDGES_FIRST)
                 self._deck.add_elements(kind, cards.lines[chosen], numbers[chosen, 0], properties[chosen], own)
         self._n_partial += int(((n_mid > 0) & ~full).sum())
 

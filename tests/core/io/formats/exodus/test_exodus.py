@@ -143,21 +143,6 @@ def test_data_that_are_not_kept_are_noted(tmp_path):
     assert mesh.notes == (words,)
 
 
-def test_records_of_the_programs_that_made_a_file_are_kept(tmp_path):
-    qa = ["CUBIT", "16.1", "11/22/26", "12:30:00", "Sierra", "5.2", "11/23/26", "00:00:01"]
-    more = [
-        ("qa_records", ("num_qa_rec", "four", "len_name"), letters(qa).reshape(2, 4, 33)),
-        ("info_records", ("num_info", "len_name"), letters(["begin sierra", "", "end"])),
-    ]
-    mesh = io.read(written(tmp_path / "q.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
-    assert mesh.notes == ()
-    assert io.unsupported_data("a.exo", mesh) == []
-    assert io.unsupported_data("a.med", mesh) == ["field data (exodus:information, exodus:qa)"]
-    back = read_back(tmp_path / "again.exo", mesh)
-    assert back.field_data["exodus:qa"] == qa
-    assert back.field_data["exodus:information"] == ["begin sierra", "", "end"]
-
-
 def test_a_node_set_named_fixed_pins_its_nodes_and_stays_a_set(tmp_path):
     more = [
         ("ns_names", ("num_node_sets", "len_name"), letters(["Fixed", "FIXED"])),
