@@ -23,7 +23,7 @@ from hexmend.mesh.mesh import Mesh
 
 #: Name of a block and what stands behind it, its Fortran format, and its lines.
 _BLOCK = re.compile(
-    rb"^[ \t]*(NBLOCK|EBLOCK|CMBLOCK|ETBLOCK)\b([^\n]*)\n[ \t]*\(([^)\n]*)\)[^\n]*\n((?:[ \t\d.ED+-]*+\n)*+)",
+    rb"^[ \t]*(NBLOCK|EBLOCK|CMBLOCK|ETBLOCK)\b([^\n]*)\n[ \t]*\(([^)\n]*)\)[^\n]*\n((?:(?:[ \t\d-][^,\n]*+)?\n)*+)",
     re.MULTILINE | re.IGNORECASE,
 )
 _FIRST = re.compile(rb"^[ \t]*(?:/PREP7|NBLOCK,|/COM,[ \t]*ANSYS)", re.MULTILINE | re.IGNORECASE)

@@ -29,7 +29,7 @@ FILES = Path(__file__).parents[1] / "files"
 #: Formats in which coordinates are replaced, by a file's name.
 WRITTEN = ["a.inp", "a.bdf", "a.msh", "a.exo", "a.med", "a.su2", "a.mesh", "a.meshb"]
 #: Characters of a real number that a file holds exactly; others round to 14 digits.
-ROUNDING = {".inp": 1e-12, ".bdf": 1e-11}
+ROUNDING = {".inp": 1e-12, ".bdf": 1e-11} | dict.fromkeys((".rad", ".feb", ".cdb"), 1e-15)
 _NUMBER = re.compile(rb"[-+0-9.eEdD]+")
 
 
