@@ -24,6 +24,7 @@ from hexmend.io.coordinates.replacement import (
     replace_coordinates,
 )
 from hexmend.io.format_lookup import (
+    OTHER_FORMAT,
     check_has_mesh,
     every_format,
     format_by_place,
@@ -42,8 +43,6 @@ from hexmend.mesh.orientation import with_consistent_orientation
 _FORMATS_SHARE = 0.7
 #: Bytes of a file from which on its mesh is large: arrays that are freed are returned to the system.
 _LARGE_FILE = 1 << 24
-#: Remedy for a mesh whose deck can only be copied with other coordinates.
-_OTHER_FORMAT = "Write .vtu, .inp or .k instead."
 
 
 def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missing: bool = False) -> Mesh:
@@ -148,8 +147,7 @@ def write(
 def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
     write = format.write
     if write is None:
-        problem = f"{format.title} is written as a copy of a deck with other coordinates only"
-        raise FileError(path, problem, _OTHER_FORMAT)
+        raise FileError(path, "is a copy of a deck: it can have other coordinates only", OTHER_FORMAT)
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
@@ -219,7 +217,7 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
                 return replace_coordinates(path, mesh, original, format_of(original.path))
             except CoordinatesError as error:
                 if not format_of(original.path).write:
-                    raise FileError(path, f"cannot be written: {error}", _OTHER_FORMAT) from None
+                    raise FileError(path, f"cannot be written: {error}", OTHER_FORMAT) from None
                 _check_content(path, original, str(error))
                 reason = (_anew(str(error), original),)
             except ChangedFileError as error:

@@ -20,6 +20,8 @@ from hexmend.registry import load_entry_points
 
 #: Entry-point group of the formats of other distributions; its entries name a `Format`.
 _ENTRY_POINTS = "hexmend.formats"
+#: Remedy for a mesh in a format of decks that are only copied with other coordinates.
+OTHER_FORMAT = "Write .vtu, .inp or .k instead."
 #: Bytes from which the format of a file is recognised.
 _HEAD = 4096
 #: First bytes of compressed files, by the program that compresses.
@@ -143,6 +145,8 @@ def writable_format(path: Path, source: Path | None = None) -> Format:
     given = format_of(source) if source is not None and source.is_file() else None
     if given is not None and given.locate and path.suffix.lower() in given.suffixes:
         return given  # a copy with other coordinates
+    if deck := next((one for one in FORMATS.values() if one.locate and path.suffix.lower() in one.suffixes), None):
+        raise FileError(path, f"{deck.title} is written as a copy of a deck with other coordinates only", OTHER_FORMAT)
     copied = None if source is None else format_by_place(source)
     if copied is not None and copied.write:
         return copied

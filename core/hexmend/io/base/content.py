@@ -1,7 +1,5 @@
 """Content of a mesh file, the same for all formats: points, blocks of cells of one kind, data and sets.
 
-Interpolation of coordinates that are not finite.
-
 Number of nodes, dimension and node order of every kind of cell, hexahedra included.
 """
 
@@ -10,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
 
@@ -19,11 +17,10 @@ import numpy as np
 from hexmend.arrays import as_immutable_owned
 from hexmend.errors import FileError
 from hexmend.io.base.fixed_marks import find_marks
+from hexmend.io.base.node_places import interpolate_missing, order_of_mid_nodes
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.collapsed_hexes import with_collapsed_converted
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.validation import as_hexes, as_points, check_node_numbers
 from hexmend.terminal_text import count_phrase, listed
 
@@ -76,47 +73,6 @@ _ORDERS = "Write it with elements of order 1 or 2; Gmsh does: gmsh MODEL -3 -ord
 
 #: True while a file is read whose nodes without finite coordinates are to be interpolated.
 INTERPOLATE_MISSING: ContextVar[bool] = ContextVar("INTERPOLATE_MISSING", default=False)
-
-
-def interpolate_missing(points: np.ndarray, hexes: Sequence[np.ndarray]) -> tuple[np.ndarray, str]:
-    """Place nodes without finite coordinates at the mean of their neighbours, layer by layer from known nodes.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    hexes : sequence of (k, 8), (k, 20) or (k, 27) int array
-        Nodes of hexes of first or second order.
-
-    Returns
-    -------
-    points : (n, 3) float64
-        A copy. Nodes without any connection to a known one are at the mean of all known nodes.
-    note : str
-        A sentence for the notes of the mesh.
-    """
-    points = np.array(points, dtype=np.float64)
-    known = np.isfinite(points).all(axis=1)
-    missing = int(np.count_nonzero(~known))
-    edges = np.concatenate([nodes[:, pair] for nodes in hexes for pair in _neighbours(nodes.shape[1])])
-    edges = np.concatenate([edges, edges[:, ::-1]])
-    points[~known] = points[known].mean(axis=0) if known.any() else 0.0
-    while not known.all():
-        front = edges[~known[edges[:, 0]] & known[edges[:, 1]]]
-        if not len(front):
-            break
-        total = np.zeros_like(points)
-        np.add.at(total, front[:, 0], points[front[:, 1]])
-        count = np.bincount(front[:, 0], minlength=len(points))
-        found = np.flatnonzero(count)
-        points[found] = total[found] / count[found, None]
-        known[found] = True
-    return points, f"{count_phrase(missing, 'node')} had no finite coordinates: placed between their neighbours."
-
-
-def _neighbours(width: int) -> list[tuple[int, int]]:
-    """Pairs of adjacent nodes of a hex with `width` nodes: edges, and each mid-node with the corners around it."""
-    edges = [(int(a), int(b)) for a, b in EDGES]
-    return edges + [(k, int(corner)) for k in range(8, width) for corner in np.flatnonzero(MID_NODE_WEIGHTS[k - 8])]
 
 
 #: Name of the data that hold the file's own numbers of nodes and cells.
@@ -212,7 +168,13 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     for block in content.blocks:
         if len(block):
             check_node_numbers(block.nodes, len(content.points))
-    notes, points = list(content.notes), content.points
+    points = content.points
+    notes = list(content.notes)
+    for k, block in enumerate(hexes):
+        if block.kind == "hex20" and (order := order_of_mid_nodes(block.nodes, points)) is not None:
+            hexes[k] = replace(block, nodes=block.nodes[:, order])
+            numbers = ", ".join(map(str, 1 + order[8:]))
+            notes.append(f"The mid-nodes of all hexes lie on other edges than the format says: read as {numbers}.")
     if INTERPOLATE_MISSING.get() and not np.isfinite(points).all():
         points, note = interpolate_missing(points, [block.nodes for block in hexes])
         notes.append(note)

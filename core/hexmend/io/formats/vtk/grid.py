@@ -14,13 +14,14 @@ from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data,
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.base.remedies import unread_note
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.terminal_text import count_phrase
 
-HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
+HEXAHEDRON, VOXEL, QUAD, PIXEL, POLYHEDRON = 12, 11, 9, 8, 42
 
 #: Kinds of cells that are read, by VTK's type number.
 KIND_BY_TYPE = {12: "hex", 25: "hex20", 29: "hex27", **{kind.vtk: name for name, kind in CELL_KINDS.items()}}
@@ -132,6 +133,35 @@ def to_content(path: Path, grid: Grid) -> Content:
         blocks = _merge_voxels(types, blocks)
     notes = (*grid.notes, *notes)
     return Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=notes)
+
+
+def with_polyhedra_converted(grid: Grid, faces: RaggedArray) -> Grid:
+    """Make hexes, wedges, pyramids and tetrahedra of polyhedra that are such; other polyhedra stay.
+
+    Parameters
+    ----------
+    grid : Grid
+    faces : RaggedArray
+        Of each polyhedron the number of its faces, then of each face the number of its nodes and these.
+    """
+    which, heads = np.flatnonzero(np.asarray(grid.types) == POLYHEDRON), faces.start[:-1]
+    if not len(which) or not faces.lengths.all():
+        return grid
+    loops, whole = RaggedArray.of_counted_rows(np.delete(faces.values, heads))
+    first = np.concatenate([[0], np.cumsum(faces.values[heads])])
+    if not whole or len(which) != len(heads) or len(loops) != first[-1] or (np.diff(first) < 0).any():
+        return grid
+    found = cells_from_faces(loops, RaggedArray(first, np.arange(len(loops))), np.ones(len(loops), bool))
+    types, widths = np.array(grid.types), np.diff(grid.start)
+    kept, given = np.ones(len(types), dtype=bool), widths.copy()
+    for kind, (rows, nodes) in found.items():
+        types[which[rows]], widths[which[rows]], kept[which[rows]] = TYPE_BY_KIND[kind], nodes.shape[1], False
+    start = np.concatenate([[0], np.cumsum(widths)])
+    nodes = np.empty(start[-1], np.int64)
+    nodes[np.repeat(kept, widths)] = grid.nodes[np.repeat(kept, given)]
+    for rows, own in found.values():
+        nodes[start[which[rows]][:, None] + np.arange(own.shape[1])] = own
+    return replace(grid, types=types, start=start, nodes=nodes)
 
 
 def from_mesh(mesh: Mesh, kinds: str = "biufU") -> Grid:

@@ -14,8 +14,9 @@ from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, register
+from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.base.remedies import MemoryBudget, check_suffix, unread_note
-from hexmend.io.formats.vtk.grid import Grid, to_mesh
+from hexmend.io.formats.vtk.grid import POLYHEDRON, Grid, to_mesh, with_polyhedra_converted
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells, write
 from hexmend.io.formats.vtk.structured import grid_points, structured_cells
 from hexmend.io.storage.binary_rows import FileBytes
@@ -73,7 +74,10 @@ class _LegacyReader:
         start, nodes = self._cells(types)
         note = unread_note(f"arrays that are not of numbers, one row a node or cell ({', '.join(self.skipped)})")
         data, notes = (*self.data.values(), self.field_data), (note,) if self.skipped else ()
-        return Grid(self.sections["POINTS"], types, start, nodes, *data, notes)
+        grid = Grid(self.sections["POINTS"], types, start, nodes, *data, notes)
+        chosen = types == POLYHEDRON
+        own = nodes[np.repeat(chosen, np.diff(start))].astype(np.int64)
+        return with_polyhedra_converted(grid, RaggedArray(np.cumsum([0, *np.diff(start)[chosen]]), own))
 
     def read_polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         self._read("POLYDATA", ("POINTS",))

@@ -10,8 +10,9 @@ import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.format import Capability, register
+from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.base.remedies import unread_note
-from hexmend.io.formats.vtk.grid import Grid, to_mesh
+from hexmend.io.formats.vtk.grid import POLYHEDRON, Grid, to_mesh, with_polyhedra_converted
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import write
 from hexmend.io.formats.vtk.xml_arrays import read_strings, read_values
@@ -98,7 +99,34 @@ def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) 
         nodes = _read_integers(document, arrays["connectivity"], int(start[-1]))
     sections = ((piece.first("PointData"), points), (piece.first("CellData"), cells))
     data = [read_data(document, section, rows, skipped) for section, rows in sections]
-    return Grid(points_flat.reshape(-1, 3).astype(np.float64, copy=False), types, start, nodes, *data)
+    grid = Grid(points_flat.reshape(-1, 3).astype(np.float64, copy=False), types, start, nodes, *data)
+    faces = _faces_of_polyhedra(document, arrays, np.asarray(types) == POLYHEDRON)
+    return grid if faces is None else with_polyhedra_converted(grid, faces)
+
+
+def _faces_of_polyhedra(document: Document, arrays: dict[str, XMLElement], which: np.ndarray) -> RaggedArray | None:
+    """Faces of the cells `which` (c,) bool, see `with_polyhedra_converted`; None where the file does not list them."""
+
+    def numbers(name: str) -> np.ndarray:
+        return read_values(document, arrays[name]).astype(np.int64)
+
+    if not which.any() or not ({"faces", "faceoffsets"} <= arrays.keys() or "polyhedron_offsets" in arrays):
+        return None
+    if "faceoffsets" in arrays:
+        ends, values = numbers("faceoffsets"), numbers("faces")
+    else:  # from version 2.3 on
+        loops = np.split(numbers("face_connectivity"), numbers("face_offsets"))
+        ends, of_cells = numbers("polyhedron_offsets"), numbers("polyhedron_to_faces")
+        if len(of_cells) and not 0 <= of_cells.min() <= of_cells.max() < len(loops):
+            raise document.error("its polyhedra refer to faces that it does not have")
+        cells = [[loops[face] for face in part.tolist()] for part in np.split(of_cells, ends)[: len(ends)]]
+        rows = [[len(cell), *(number for one in cell for number in (len(one), *one.tolist()))] for cell in cells]
+        rows = [row if len(row) > 1 else [] for row in rows]  # of cells that are no polyhedra
+        ends, values = np.cumsum([len(row) for row in rows]), np.array([number for row in rows for number in row])
+    start = np.concatenate([[0], ends[which]])
+    if len(ends) != len(which) or (np.diff(start) <= 0).any() or start[-1] > len(values):
+        raise document.error("its polyhedra have no faces of their own")
+    return RaggedArray(start, values[: start[-1]].astype(np.int64))
 
 
 def _read_integers(document: Document, array: XMLElement, count: int) -> np.ndarray:

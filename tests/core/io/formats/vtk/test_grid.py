@@ -8,6 +8,7 @@ from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.io.formats.vtk.test_vtu import WRITERS
+from tests.core.io.kept import middles_are_in_the_middle
 from tests.core.io.vtk_writers import by_vtk
 
 vtk = pytest.importorskip("vtk")
@@ -131,3 +132,50 @@ def test_hexes_labelled_as_tetrahedra_are_read_where_all_have_eight_nodes(suffix
     corners = mesh.points[mesh.hexes[0]]
     a, b, c, d = corners[CORNER_TETRAHEDRA[0]]
     assert np.linalg.det([b - a, c - a, d - a]) > 0
+
+
+HEX_FACES = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+WEDGE_FACES = [[0, 1, 2], [3, 5, 4], [0, 3, 4, 1], [1, 4, 5, 2], [2, 5, 3, 0]]
+
+
+@pytest.mark.parametrize(("suffix", "version"), [(".vtu", ""), (".vtu", "1.0"), (".vtk", "5.1"), (".vtk", "4.2")])
+def test_polyhedra_that_are_hexes_and_wedges_are_read_as_such(suffix, version, tmp_path):
+    points, streams = [*UNIT_CUBE, *(places(13) + [3, 0, 0])], []
+    for faces, first in ((HEX_FACES, 0), (WEDGE_FACES, 8)):
+        streams.append([len(faces), *(number for face in faces for number in (len(face), *(first + k for k in face)))])
+    grid = pyvista.UnstructuredGrid(np.concatenate([[len(row), *row] for row in streams]), [42, 42], np.array(points))
+    path = tmp_path / f"a{suffix}"
+    writer = vtk.vtkXMLUnstructuredGridWriter() if suffix == ".vtu" else vtk.vtkUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    if suffix == ".vtk":
+        writer.SetFileVersion(int(version.replace(".", "")))
+    else:
+        writer.SetDataModeToAscii()
+    writer.Write()
+    if version == "1.0":  # as VTK wrote it before 9.4
+        head, tail = path.read_text().split('<DataArray type="Int64" Name="face_connectivity"')
+        arrays = {"faces": np.concatenate(streams).tolist(), "faceoffsets": np.cumsum([*map(len, streams)]).tolist()}
+        form = '<DataArray type="Int64" Name="{}" format="ascii">{}</DataArray>'.format
+        texts = (form(name, " ".join(map(str, numbers))) for name, numbers in arrays.items())
+        path.write_text(head + "".join(texts) + tail[tail.index("</Cells>") :])
+    mesh = io.read(path)
+    np.testing.assert_allclose(sorted(mesh.points[mesh.hexes[0]].tolist()), sorted(UNIT_CUBE.tolist()))
+    assert np.linalg.det((mesh.points[mesh.hexes[0]] - mesh.points[mesh.hexes[0, 0]])[[1, 3, 4]]) == pytest.approx(1)
+    assert [(cells.kind, sorted(cells.nodes[0])) for cells in mesh.cells] == [("wedge", list(range(8, 14)))]
+
+
+def test_mid_nodes_in_the_order_of_another_program_are_exchanged(tmp_path):
+    """Vertical edges before the upper ones, labelled as VTK's hex of 20 nodes."""
+    order = [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]
+    points = np.concatenate(
+        [np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS[:12]])[order] + [2 * k, 0, 0] for k in (0, 1)]
+    )
+    cells = np.array([[20, *range(20)], [20, *range(20, 40)]])
+    pyvista.UnstructuredGrid(cells, [25, 25], points).save(tmp_path / "a.vtk")
+    mesh = io.read(tmp_path / "a.vtk")
+    middles_are_in_the_middle(mesh)
+    assert mesh.notes == (
+        "The mid-nodes of all hexes lie on other edges than the format says: read as 9, 10, 11, 12, 17, 18, 19, "
+        "20, 13, 14, 15, 16.",
+    )
