@@ -182,11 +182,6 @@ _KINDS = (
         "is a mesh of libMesh",
         "Convert it with libMesh: meshtool-opt -i MESH.xda -o MESH.e.",
     ),
-    (
-        rb"\s+-1\s+(?:151|15|164|2411|2420|780)\b",
-        "is a universal file (UNV)",
-        "Convert it with Gmsh: gmsh MESH.unv -save -o MESH.msh.",
-    ),
 )
 
 

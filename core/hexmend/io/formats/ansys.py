@@ -17,7 +17,7 @@ from hexmend.io.base.format import Capability, register
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.coordinates.joined_files import JoinedFiles
 from hexmend.io.formats.decks.coordinates import DeckCoordinates
-from hexmend.io.formats.decks.lines import CardLines
+from hexmend.io.formats.decks.lines import CardLines, line_ranges
 from hexmend.io.formats.decks.model import DeckModel, solids_by_width
 from hexmend.mesh.mesh import Mesh
 
@@ -97,10 +97,8 @@ def _blocks(files: JoinedFiles) -> Iterator[_Block]:
         columns = tuple(int(width) for count, width in _FORMAT.findall(found[3]) for _ in range(min(int(count), 99)))
         if not columns or max(columns) > 99:
             raise files.root.error(f"{found[1].decode()} in {files.place(found.start())} has no format", DAMAGED)
-        first, body = found.start(4), found[4]
-        breaks = first + np.flatnonzero(np.frombuffer(body, np.uint8) == ord("\n"))
-        name, begin = found[1].decode().upper(), np.append(first, breaks[:-1] + 1)[: len(breaks)]
-        lines = CardLines(name, files, found.start(), begin, breaks).filled()
+        name = found[1].decode().upper()
+        lines = CardLines(name, files, found.start(), *line_ranges(files.data, *found.span(4))).filled()
         last = [at for at, text in enumerate(lines.texts()) if text == "-1"]
         words = [word.strip() for word in found[2].decode("latin-1").partition("!")[0].split(",")[1:]]
         yield _Block(name, words, columns, lines.rows(slice(last[0] if last else None)))

@@ -36,7 +36,7 @@ _ELEMENTS = {
 #: Sets of a model, and whether members are first and last numbers, by the beginning of a block.
 _SETS = {
     "GRNOD/NODE": ("nodes", False), "GRNOD/NODENS": ("nodes", False), "GRNOD/GENE": ("nodes", True),
-    "GRBRIC/BRIC": ("elements", False), "GRBRIC/GENE": ("elements", True), "SURF/SEG": ("faces", False),
+    "GRBRIC/BRIC": ("solids", False), "GRBRIC/GENE": ("solids", True), "SURF/SEG": ("faces", False),
 }  # fmt: skip
 #: Blocks that join bodies, and those that hold nodes: the line behind the keyword, and the fields of that.
 _JOINING = ("INTER", "RBODY", "RBE2", "RBE3", "RLINK", "CYL_JOINT", "SPRING", "MPC")

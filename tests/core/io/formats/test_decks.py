@@ -1,4 +1,4 @@
-"""Decks of Radioss, FEBio and Ansys: read, and written as copies with other coordinates; what is wrong is named."""
+"""Decks of Radioss, FEBio and Ansys, and universal files: read, and written as copies with other coordinates; what is wrong is named."""
 
 from pathlib import Path
 
@@ -8,7 +8,15 @@ import pytest
 from hexmend import FileError, io
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
-from tests.core.io.kept import assert_refused, middles_are_in_the_middle, read_content
+from tests.core.grids import grid
+from tests.core.io.kept import (
+    assert_refused,
+    assert_same,
+    middles_are_in_the_middle,
+    read_back,
+    read_content,
+    with_everything,
+)
 
 FILES = Path(__file__).parents[1] / "files"
 DECKS = {suffix: (FILES / f"two-hexes{suffix}").read_text() for suffix in (".rad", ".feb", ".cdb")}
@@ -71,6 +79,30 @@ def second_order(suffix, order):
 
 
 VERTICAL_FIRST = [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]
+
+
+def test_what_a_universal_file_holds_is_read_again(tmp_path):
+    for order in (8, 20):
+        mesh = with_everything(order)
+        back = read_back(tmp_path / "a.unv", mesh)
+        kept = [cells for cells in mesh.cells if cells.kind != "pyramid"]
+        assert_same(back, mesh.replace(cells=tuple(kept)), without=("side_sets",))
+        moved = back.with_points(back.points / 3)
+        io.write(tmp_path / "b.unv", moved, like=tmp_path / "a.unv")
+        np.testing.assert_array_equal(io.read(tmp_path / "b.unv").points, moved.points)
+        given, new = ((tmp_path / name).read_text().splitlines() for name in ("a.unv", "b.unv"))
+        assert len(given) == len(new)
+        assert sum(a != b for a, b in zip(given, new, strict=True)) <= mesh.n_nodes
+
+
+def test_what_is_wrong_in_a_universal_file_is_named(tmp_path):
+    """Nodes of elements that are not read stay; those have the lines of beams where they are such."""
+    io.write(tmp_path / "a.unv", grid(2))
+    text, head = (tmp_path / "a.unv").read_text(), columns([1, 115, 1, 1, 7, 8])
+    mesh = read_content(tmp_path / "b.unv", text.replace(head, columns([1, 199, 1, 1, 7, 8])))
+    assert (mesh.n_hexes, mesh.pinned.sum()) == (7, 8)
+    assert_refused(tmp_path / "c.unv", "FE descriptor 115 without 8 nodes", text.replace(head, head[:-1] + "7"))
+    assert_refused(tmp_path / "d.unv", "dataset 2412 in line 60 holds 'x ", text.replace(head, "x" + head[1:]))
 
 
 @pytest.mark.parametrize(("suffix", "order"), [(".rad", VERTICAL_FIRST), (".feb", range(20)), (".cdb", range(20))])

@@ -58,7 +58,6 @@ def test_nodes_of_kratos_have_numbers_of_their_own(tmp_path):
     ("a.mesh", "MFEM mesh v1.0\n\ndimension\n3\n", "a mesh of MFEM. .*mesh-explorer"),
     ("a.msh", '(0 "GAMBIT to Fluent File")\n(2 3)\n', "a mesh of Fluent. .*fluent3DMeshToFoam"),
     ("a.mphtxt", "# Created by COMSOL Multiphysics\n", "a mesh of COMSOL. .*NASTRAN"),
-    ("a.unv", "    -1\n  2411\n", "a universal file .*gmsh MESH.unv -save -o MESH.msh"),
 ])  # fmt: skip
 def test_files_of_other_programs_are_refused_with_a_way_out(name, head, words, tmp_path):
     with pytest.raises(FileError, match=f"is {words}") as error:

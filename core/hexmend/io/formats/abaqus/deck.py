@@ -18,7 +18,7 @@ from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
 from hexmend.io.coordinates.text_coordinates import word_ranges
-from hexmend.io.formats.decks.lines import CardLines, trimmed
+from hexmend.io.formats.decks.lines import CardLines, line_ranges, trimmed
 
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 #: A line whose first letter is a single asterisk; it goes on in the next line behind a comma.
@@ -109,9 +109,7 @@ class Deck:
 
     def node_lines(self, card: Card) -> CardLines:
         """Return the data lines of a *NODE card that are not blank."""
-        letters = np.frombuffer(self.data, np.uint8)
-        breaks = card.begin + np.flatnonzero(letters[card.begin : card.end] == NEWLINE[0])
-        begin, end = trimmed(letters, np.append(card.begin, breaks + 1), np.append(breaks, card.end))
+        begin, end = trimmed(np.frombuffer(self.data, np.uint8), *line_ranges(self.data, card.begin, card.end))
         return CardLines("*NODE", self.files, card.at, begin[begin < end], end[begin < end], None)
 
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:

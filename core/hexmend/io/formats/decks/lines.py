@@ -86,6 +86,14 @@ class CardLines:
         return Cards(path, self.name, self.begin, texts, first, first + len(widths), place)
 
 
+def line_ranges(data: bytes, begin: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+    """Byte ranges of the lines between two offsets, without their ends, (k,) int64 each."""
+    letters = np.frombuffer(data, np.uint8)[begin : max(begin, end)]
+    breaks = begin + np.flatnonzero(letters == ord("\n"))
+    ends = breaks if len(letters) == 0 or letters[-1] == ord("\n") else np.append(breaks, end)
+    return np.append(begin, ends[:-1] + 1)[: len(ends)], ends
+
+
 def keyword_lines(
     data: bytes, mark: bytes, comment: bytes, *, with_blank: bool = False
 ) -> Iterator[tuple[int, str, np.ndarray, np.ndarray]]:
@@ -111,15 +119,10 @@ def keyword_lines(
         Byte ranges of the lines of data that follow.
     """
     found = list(re.finditer(rb"^%s([^\n]*)" % re.escape(mark), data, re.MULTILINE))
-    breaks = np.append(np.flatnonzero(np.frombuffer(data, np.uint8) == ord("\n")), len(data))
     for k, match in enumerate(found):
-        stop = found[k + 1].start() if k + 1 < len(found) else len(data)
-        low, high = np.searchsorted(breaks, [match.end(), stop])
-        ends = np.minimum(breaks[low + 1 : high + 1], stop)
-        begins = (breaks[low:high] + 1)[: len(ends)]
+        begins, ends = line_ranges(data, match.end() + 1, found[k + 1].start() if k + 1 < len(found) else len(data))
         lines = [data[a:b] for a, b in zip(begins.tolist(), ends.tolist(), strict=True)]
         kept = np.array([line[:1] != comment and (with_blank or bool(line.strip())) for line in lines], dtype=bool)
-        kept &= begins < stop
         yield match.start(), match[1].decode("latin-1").strip(), begins[kept], ends[kept]
 
 

@@ -36,8 +36,8 @@ class DeckModel:
     part_names : dict of int to str
         Titles of parts by their numbers.
     sets : dict of str to dict of str to list of arrays
-        Members of each set of "nodes", "elements" and "faces" by its name: numbers (k,), first and last ones (k, 2),
-        or nodes of faces (k, 3 or 4).
+        Members of each set of "nodes", "elements", "solids" and "faces" by its name: numbers (k,), first and last
+        ones (k, 2), or nodes of faces (k, 4).
     held : dict of str to list of (k,) int64
         Numbers of nodes that stay, by the cards that hold them and are not read.
     others : Counter
@@ -52,7 +52,7 @@ class DeckModel:
         self.path, self._node_card, self._title = path, node_card, title
         self.nodes: list[tuple[np.ndarray, np.ndarray]] = []
         self.part_names: dict[int, str] = {}
-        self.sets: dict[str, dict[str, list[np.ndarray]]] = {"nodes": {}, "elements": {}, "faces": {}}
+        self.sets: defaultdict[str, dict[str, list[np.ndarray]]] = defaultdict(dict)
         self.held: defaultdict[str, list[np.ndarray]] = defaultdict(list)
         self.others: Counter[str] = Counter()
         self.joining: list[str] = []
@@ -79,7 +79,7 @@ class DeckModel:
             self._elements.setdefault(kind, []).append(rows)
 
     def add_set(self, kind: str, name: str, members: np.ndarray) -> None:
-        """Add members to a set of "nodes", "elements" or "faces"; see `sets`."""
+        """Add members to a set of "nodes", "elements", "solids" or "faces"; see `sets`."""
         self.sets[kind].setdefault(name, []).append(members)
 
     def given_nodes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -108,8 +108,9 @@ class DeckModel:
                 name: np.flatnonzero(parts == one) for one in np.unique(parts).tolist() if (name := name_of_part(one))
             }
             blocks.append(Block(kind, find_ids(self.path, node_ids, rows[:, 3:], "node"), {ID: ids.copy()}, sets))
-            for name, members in self.sets["elements"].items():
-                if (own := _members(ids, members)).size and dimension(kind) == 3:
+            kinds = ("elements", "solids") if dimension(kind) == 3 else ("elements",)
+            for name, members in (item for one in kinds for item in self.sets[one].items()):
+                if (own := _members(ids, members)).size:
                     sets[name] = own
         return blocks
 
@@ -152,13 +153,10 @@ def _members(ids: np.ndarray, parts: list[np.ndarray]) -> np.ndarray:
 
 def _sides(hexes: list[np.ndarray], node_ids: np.ndarray, parts: list[np.ndarray]) -> np.ndarray:
     """Faces of hexes, (k, 2) int64, that have the four nodes of faces given by numbers."""
-    wanted, there = lookup(node_ids, np.concatenate([part[:, :4] for part in parts if part.shape[1] >= 4] or [_NONE]))
+    wanted, there = lookup(node_ids, np.concatenate(parts))
     weights = np.random.default_rng(0).integers(1, 2**62, len(node_ids))  # whose sum tells the nodes of a face
     faces = weights[np.concatenate(hexes)[:, FACES]].sum(axis=2)  # overflow does no harm
     return np.argwhere(np.isin(faces, weights[wanted].sum(axis=1)[there.all(axis=1)])).astype(np.int64)
-
-
-_NONE = np.zeros((0, 4), np.int64)
 
 
 def solids_by_width(nodes: np.ndarray, kinds: dict[int, str]) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:

@@ -30,7 +30,7 @@ _MORE_LINES = {"": 0, "_ORTHO": 2, "_THICKNESS": 1, "_BETA": 1, "_THICKNESS_BETA
 #: Field of the first node of elements that are not read, whose nodes stay.
 _HOLDING = {"ELEMENT_DISCRETE": 2, "ELEMENT_MASS": 1, "ELEMENT_SEATBELT": 2, "ELEMENT_INERTIA": 1}
 #: Sets of a model by the names of their keywords.
-_SETS = {"NODE": "nodes", "SOLID": "elements", "SEGMENT": "faces"}
+_SETS = {"NODE": "nodes", "SOLID": "solids", "SEGMENT": "faces"}
 #: Keywords that no note mentions.
 _IGNORED = ("KEYWORD", "TITLE")
 
