@@ -111,7 +111,11 @@ def _marked(source: str) -> str:
 def formats() -> str:
     """The formats, and what of a mesh those hold that are written: that across, so that a page is wide enough."""
     all_of_them = (
-        (one.title, ", ".join(f"`{suffix}`" for suffix in one.suffixes), " or ".join(one.encodings) or "not written")
+        (
+            one.title,
+            ", ".join(f"`{suffix}`" for suffix in one.suffixes),
+            " or ".join(one.encodings) or ("a copy with other coordinates" if one.locate else "not written"),
+        )
         for one in FORMATS.values()
     )
     alike: dict[frozenset[Capability], list[str]] = {}

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.content import VERTICAL_EDGES_FIRST, to_mesh, to_vtk_order
+from hexmend.io.base.cursor import is_number
 from hexmend.io.base.format import Capability, register
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.coordinates.joined_files import Inclusion, JoinedFiles, included_files
@@ -88,7 +89,7 @@ def _blocks(path: Path) -> Iterator[CardLines]:
 def _read_block(model: DeckModel, lines: CardLines) -> None:
     """Add what a block defines to a model."""
     name, *rest = lines.name[1:].upper().split("/")
-    number = next((int(word) for word in rest if word.strip().isdecimal()), 0)
+    number = next((int(word) for word in rest if is_number(word.strip())), 0)
     of_set = _SETS.get("/".join([name, *rest[:1]]))
     if name in _NODES:
         cards = lines.filled().cards(_NODE_COLUMNS)
