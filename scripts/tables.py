@@ -114,7 +114,7 @@ def formats() -> str:
         (
             one.title,
             ", ".join(f"`{suffix}`" for suffix in one.suffixes),
-            " or ".join(one.encodings) or ("a copy with other coordinates" if one.locate else "not written"),
+            " or ".join(one.encodings) or ("copies alone" if one.locate else "not written"),
         )
         for one in FORMATS.values()
     )

@@ -169,12 +169,8 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         if len(block):
             check_node_numbers(block.nodes, len(content.points))
     points = content.points
-    notes = list(content.notes)
-    for k, block in enumerate(hexes):
-        if block.kind == "hex20" and (order := order_of_mid_nodes(block.nodes, points)) is not None:
-            hexes[k] = replace(block, nodes=block.nodes[:, order])
-            numbers = ", ".join(map(str, 1 + order[8:]))
-            notes.append(f"The mid-nodes of all hexes lie on other edges than the format says: read as {numbers}.")
+    hexes, exchanged = _with_mid_nodes_on_edges(hexes, points)
+    notes = [*content.notes, *exchanged]
     if INTERPOLATE_MISSING.get() and not np.isfinite(points).all():
         points, note = interpolate_missing(points, [block.nodes for block in hexes])
         notes.append(note)
@@ -199,6 +195,17 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     )
     mesh, note = with_collapsed_converted(mesh)
     return mesh.replace(notes=(*mesh.notes, note)) if note else mesh
+
+
+def _with_mid_nodes_on_edges(hexes: list[Block], points: np.ndarray) -> tuple[list[Block], list[str]]:
+    """Exchange the mid-nodes of blocks in which they are those of other edges; returns notes too."""
+    found, notes = list(hexes), []
+    for k, block in enumerate(hexes):
+        if block.kind == "hex20" and (order := order_of_mid_nodes(block.nodes, points)) is not None:
+            found[k] = replace(block, nodes=block.nodes[:, order])
+            numbers = ", ".join(map(str, 1 + order[8:]))
+            notes.append(f"The mid-nodes of all hexes lie on other edges than the format says: read as {numbers}.")
+    return found, notes
 
 
 def from_mesh(mesh: Mesh) -> Content:
