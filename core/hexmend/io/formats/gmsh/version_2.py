@@ -59,27 +59,40 @@ def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     if order:
         sections.elements = _binary_elements(source, order)
         return
-    values = source.read_numbers_until("$Elements", b"$EndElements", np.int64)
+    sections.elements = _text_elements(source, "$Elements", b"$EndElements", 3)
+
+
+def read_elm(source: ByteCursor, order: str, sections: Sections) -> None:
+    """Read $ELM: a count, then tag, type, physical group, entity, number of nodes and nodes of each element."""
+    sections.elements = _text_elements(source, "$ELM", b"$ENDELM", 5)
+
+
+def _text_elements(source: ByteCursor, name: str, end: bytes, n_head: int) -> list[ElementBlock]:
+    """Elements as text up to the keyword `end`, of which each begins with so many numbers.
+
+    They are tag, type and number of tags, or in version 1 tag, type, group, entity and number of nodes.
+    """
+    values, has_tags = source.read_numbers_until(name, end, np.int64), n_head == 3
     count = int(values[0]) if values.size else 0
     starts, at, view, widths = [], 1, memoryview(values), {}
-    while at + 2 < values.size:
-        type = view[at + 1]
+    while at + n_head - 1 < values.size:
+        type, number = view[at + 1], view[at + n_head - 1]
         if type not in widths:
-            widths[type] = 3 + nodes_per_element(source.path, type)
-        if view[at + 2] < 0:
+            widths[type] = nodes_per_element(source.path, type)
+        if number < 0 if has_tags else number != widths[type]:
             break
         starts.append(at)
-        at += widths[type] + view[at + 2]
+        at += n_head + widths[type] + (number if has_tags else 0)
     if len(starts) != count or at != values.size:
-        raise source.error(f"$Elements holds {len(starts)} whole elements of {count}")
-    begins = np.array(starts, np.int64)
-    types, n_tags = values[begins + 1], values[begins + 2]
-    sections.elements = []
-    for type, count in np.unique(np.column_stack([types, n_tags]), axis=0).tolist():
-        rows = begins[(types == type) & (n_tags == count)]
-        nodes = values[rows[:, None] + np.arange(3 + count, widths[type] + count)]
-        tags = values[rows[:, None] + np.arange(3, 3 + count)]
-        sections.elements.append(ElementBlock(type, values[rows], nodes, *_group_and_partition(tags)))
+        raise source.error(f"{name} holds {len(starts)} whole elements of {count}")
+    begins, blocks = np.array(starts, np.int64), []
+    types, n_tags = values[begins + 1], values[begins + 2] * has_tags
+    for type, number in np.unique(np.column_stack([types, n_tags]), axis=0).tolist():
+        rows, first = begins[(types == type) & (n_tags == number)], n_head + number
+        nodes = values[rows[:, None] + np.arange(first, first + widths[type])]
+        tags = values[rows[:, None] + (np.arange(3, 3 + number) if has_tags else [2])]
+        blocks.append(ElementBlock(type, values[rows], nodes, *_group_and_partition(tags)))
+    return blocks
 
 
 def _binary_elements(source: ByteCursor, order: str) -> list[ElementBlock]:
@@ -151,27 +164,3 @@ def _integers(source: ByteCursor, line: str, count: int) -> list[int]:
 def read_nod(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $NOD: a count, then the tag and the coordinates of each node."""
     read_text_nodes(source, "$NOD", b"$ENDNOD", sections)
-
-
-def read_elm(source: ByteCursor, order: str, sections: Sections) -> None:
-    """Read $ELM: a count, then tag, type, physical group, entity, number of nodes and nodes of each element."""
-    values = source.read_numbers_until("$ELM", b"$ENDELM", np.int64)
-    count = int(values[0]) if values.size else 0
-    starts, at, view, widths = [], 1, memoryview(values), {}
-    while at + 4 < values.size:
-        type, width = view[at + 1], view[at + 4]
-        if type not in widths:
-            widths[type] = nodes_per_element(source.path, type)
-        if width != widths[type]:
-            raise source.error(f"$ELM: element {view[at]} of type {type} has {width} nodes: expected {widths[type]}")
-        starts.append(at)
-        at += 5 + width
-    if len(starts) != count or at != values.size:
-        raise source.error(f"$ELM holds {len(starts)} whole elements of {count}")
-    begins = np.array(starts, np.int64)
-    types = values[begins + 1]
-    sections.elements = []
-    for type in np.unique(types).tolist():
-        rows = begins[types == type]
-        nodes = values[rows[:, None] + np.arange(5, 5 + widths[type])]
-        sections.elements.append(ElementBlock(type, values[rows], nodes, values[rows + 2]))
