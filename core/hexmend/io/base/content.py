@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
@@ -17,7 +17,7 @@ import numpy as np
 from hexmend.arrays import as_immutable_owned
 from hexmend.errors import FileError
 from hexmend.io.base.fixed_marks import find_marks
-from hexmend.io.base.node_places import interpolate_missing, order_of_mid_nodes
+from hexmend.io.base.missing_coordinates import interpolate_missing
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.collapsed_hexes import with_collapsed_converted
 from hexmend.mesh.mesh import Mesh
@@ -168,9 +168,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     for block in content.blocks:
         if len(block):
             check_node_numbers(block.nodes, len(content.points))
-    points = content.points
-    hexes, exchanged = _with_mid_nodes_on_edges(hexes, points)
-    notes = [*content.notes, *exchanged]
+    notes, points = list(content.notes), content.points
     if INTERPOLATE_MISSING.get() and not np.isfinite(points).all():
         points, note = interpolate_missing(points, [block.nodes for block in hexes])
         notes.append(note)
@@ -195,17 +193,6 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     )
     mesh, note = with_collapsed_converted(mesh)
     return mesh.replace(notes=(*mesh.notes, note)) if note else mesh
-
-
-def _with_mid_nodes_on_edges(hexes: list[Block], points: np.ndarray) -> tuple[list[Block], list[str]]:
-    """Exchange the mid-nodes of blocks in which they are those of other edges; returns notes too."""
-    found, notes = list(hexes), []
-    for k, block in enumerate(hexes):
-        if block.kind == "hex20" and (order := order_of_mid_nodes(block.nodes, points)) is not None:
-            found[k] = replace(block, nodes=block.nodes[:, order])
-            numbers = ", ".join(map(str, 1 + order[8:]))
-            notes.append(f"The mid-nodes of all hexes lie on other edges than the format says: read as {numbers}.")
-    return found, notes
 
 
 def from_mesh(mesh: Mesh) -> Content:

@@ -8,7 +8,6 @@ from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.io.formats.vtk.test_vtu import WRITERS
-from tests.core.io.kept import middles_are_in_the_middle
 from tests.core.io.vtk_writers import by_vtk
 
 vtk = pytest.importorskip("vtk")
@@ -163,19 +162,3 @@ def test_polyhedra_that_are_hexes_and_wedges_are_read_as_such(suffix, version, t
     np.testing.assert_allclose(sorted(mesh.points[mesh.hexes[0]].tolist()), sorted(UNIT_CUBE.tolist()))
     assert np.linalg.det((mesh.points[mesh.hexes[0]] - mesh.points[mesh.hexes[0, 0]])[[1, 3, 4]]) == pytest.approx(1)
     assert [(cells.kind, sorted(cells.nodes[0])) for cells in mesh.cells] == [("wedge", list(range(8, 14)))]
-
-
-def test_mid_nodes_in_the_order_of_another_program_are_exchanged(tmp_path):
-    """Vertical edges before the upper ones, labelled as VTK's hex of 20 nodes."""
-    order = [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]
-    points = np.concatenate(
-        [np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS[:12]])[order] + [2 * k, 0, 0] for k in (0, 1)]
-    )
-    cells = np.array([[20, *range(20)], [20, *range(20, 40)]])
-    pyvista.UnstructuredGrid(cells, [25, 25], points).save(tmp_path / "a.vtk")
-    mesh = io.read(tmp_path / "a.vtk")
-    middles_are_in_the_middle(mesh)
-    assert mesh.notes == (
-        "The mid-nodes of all hexes lie on other edges than the format says: read as 9, 10, 11, 12, 17, 18, 19, "
-        "20, 13, 14, 15, 16.",
-    )

@@ -1,4 +1,4 @@
-"""Places of nodes: interpolation of coordinates that are not finite, and the order of mid-nodes that they show."""
+"""Interpolation of coordinates that are not finite."""
 
 from __future__ import annotations
 
@@ -9,31 +9,6 @@ import numpy as np
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.terminal_text import count_phrase
-
-#: Hexes by which the order of mid-nodes is found.
-_SAMPLE = 1000
-
-
-def order_of_mid_nodes(nodes: np.ndarray, points: np.ndarray) -> np.ndarray | None:
-    """Find another order of the nodes of hexes of 20 nodes, in which each mid-node lies on its own edge.
-
-    Parameters
-    ----------
-    nodes : (k, 20) int
-        In VTK's order.
-    points : (n, 3) float64
-
-    Returns
-    -------
-    (20,) int64 or None
-        The hexes are nodes[:, order]. None where they are right as they are, or not all in one order.
-    """
-    some = nodes[:: -(-len(nodes) // _SAMPLE)]
-    middles = np.einsum("ec,hcx->hex", MID_NODE_WEIGHTS[:12], points[some[:, :8]])
-    nearest = np.linalg.norm(points[some[:, 8:], None] - middles[:, None], axis=3).argmin(axis=2)
-    order = np.argsort(nearest[0])
-    is_right = (nearest != nearest[0]).any() or len(np.unique(nearest[0])) < 12 or (order == np.arange(12)).all()
-    return None if is_right else np.concatenate([np.arange(8), 8 + order])
 
 
 def interpolate_missing(points: np.ndarray, hexes: Sequence[np.ndarray]) -> tuple[np.ndarray, str]:
