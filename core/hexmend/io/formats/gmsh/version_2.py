@@ -79,7 +79,10 @@ def _text_elements(source: ByteCursor, name: str, end: bytes, n_head: int) -> li
         type, number = view[at + 1], view[at + n_head - 1]
         if type not in widths:
             widths[type] = nodes_per_element(source.path, type)
-        if number < 0 if has_tags else number != widths[type]:
+        if not has_tags and number != widths[type]:
+            problem = f"{name}: element {view[at]} of type {type} has {number} nodes: expected {widths[type]}"
+            raise source.error(problem)
+        if number < 0:
             break
         starts.append(at)
         at += n_head + widths[type] + (number if has_tags else 0)
