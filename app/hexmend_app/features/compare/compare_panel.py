@@ -9,7 +9,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from hexmend.smoothers import METHODS
-from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import KEYS, METHOD, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.spacing import fill
@@ -31,10 +30,8 @@ class ComparisonSettings:
     descending: bool
 
     def __post_init__(self) -> None:
-        from hexmend.report.comparison import LINES
-
-        check_known("method", self.ticked, METHODS)
-        check_known("column", (self.sorted_by,), ("method", "view", *(figure.key for figure in LINES)))
+        if unknown := {*self.ticked.difference(METHODS), *{self.sorted_by}.difference(KEYS)}:
+            raise ValueError(f"there is no method or column {min(unknown)!r}")
 
 
 class ComparePanel(QWidget):

@@ -10,7 +10,6 @@ import numpy as np
 
 from hexmend.iteration.figures import DIAGNOSTICS, HISTORY, objective_changes
 from hexmend.quantity import Quantity, format_significant
-from hexmend_app.codec.checks import check_known
 from hexmend_app.report.convergence import DASHES, Line, LineChart
 from hexmend_app.state.mesh.run_record import RunRecord, balances
 from hexmend_app.theme.palette import RUN_COLOURS, Role
@@ -75,30 +74,6 @@ CHARTS: dict[str, Chart] = {
 
 #: Charts shown by default.
 DEFAULT_CHARTS = ("objective", "quality", "inverted")
-
-
-@dataclass(frozen=True)
-class ChartSettings:
-    """Settings of the convergence charts.
-
-    Parameters
-    ----------
-    shown : tuple of str
-        Of `CHARTS`.
-    logarithmic : bool
-    from_zero : bool
-        True if branches begin at 0.
-    by_time : bool
-        True if the axis shows seconds, not iterations.
-    """
-
-    shown: tuple[str, ...]
-    logarithmic: bool
-    from_zero: bool
-    by_time: bool
-
-    def __post_init__(self) -> None:
-        check_known("chart", self.shown, CHARTS)
 
 
 class Curve:

@@ -10,15 +10,7 @@ from superqt.utils import QSignalThrottler
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
 from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.convergence.curves import (
-    CHARTS,
-    ChartSettings,
-    Curve,
-    axis_title,
-    described,
-    run_start,
-    table_rows,
-)
+from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence
@@ -26,6 +18,7 @@ from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
+from hexmend_app.widgets.inputs.saved_values import saved_values
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Values of all runs (*.csv)"
 
@@ -54,9 +47,8 @@ class FeatureConvergence(Feature):
 
     def states(self) -> Iterable[StatePart]:
         """Yield the settings of the charts."""
-        yield StatePart(
-            name="charts", data=ChartSettings, to_data=self.panel.head.settings, restore=self.panel.head.restore
-        )
+        head = self.panel.head
+        yield saved_values("charts", log=head.log, by_time=head.by_time, from_zero=head.from_zero, **head.charts)
 
     def panels(self) -> Iterable[Panel]:
         """Yield the panel of charts."""
@@ -139,7 +131,6 @@ class FeatureConvergence(Feature):
     def _described(self) -> Convergence:
         """Return the charts that are selected, for print."""
         self._show()
-        curves, settings = self.panel.curves, self.panel.head.settings()
-        by_time, log = settings.by_time, settings.logarithmic
-        charts = [described(CHARTS[key], curves, by_time, log, for_print=True) for key in settings.shown]
+        curves, by_time, log = self.panel.curves, self.panel.by_time, self.panel.head.log.isChecked()
+        charts = [described(plot.chart, curves, by_time, log, for_print=True) for plot in self.panel.drawn]
         return Convergence(charts, self._document.name, axis_title(curves, by_time), not by_time)

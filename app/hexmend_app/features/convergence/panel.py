@@ -9,7 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QListWidget, QListWidgetItem, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
-from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, ChartSettings, Curve, axis_title, colour_of
+from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, Curve, axis_title, colour_of
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, on_theme_change, set_help, small_label, smaller
@@ -187,19 +187,6 @@ class ConvergenceHead(QWidget):
         self.from_zero = options.add(tr("Start branches at 0"), tr(_FROM_ZERO), False)
         self.save = options.add(tr("Save…"), tr(_SAVE))
         fill(QHBoxLayout(self), charts, options, margins=(0, 0, 0, 0))
-
-    def settings(self) -> ChartSettings:
-        """Return the settings."""
-        shown = tuple(key for key, action in self.charts.items() if action.isChecked())
-        return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time.isChecked())
-
-    def restore(self, settings: ChartSettings) -> None:
-        """Apply settings."""
-        for key, action in self.charts.items():
-            action.setChecked(key in settings.shown)
-        self.log.setChecked(settings.logarithmic)
-        self.from_zero.setChecked(settings.from_zero)
-        self.by_time.setChecked(settings.by_time)
 
 
 class RunList(QListWidget):

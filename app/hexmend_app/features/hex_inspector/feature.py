@@ -8,11 +8,12 @@ from pathlib import Path
 from hexmend.boundary import NodeClass
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
-from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings, write_worst
+from hexmend_app.features.hex_inspector.worst_list import WorstList, write_worst
 from hexmend_app.state.mesh.inspection import describe_hex, describe_node
 from hexmend_app.state.tasks.boundary_classifier import LEFT, WHISKER
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_save
+from hexmend_app.widgets.inputs.saved_values import saved_values
 from hexmend_app.widgets.wording import counted
 
 #: Descriptions of the classes of boundary nodes, which limit how a node slides.
@@ -121,18 +122,8 @@ class FeatureHexInspector(Feature):
 
     def states(self) -> Iterable[StatePart]:
         """Yield the settings of the list of worst hexes, and of the labels of corners."""
-        yield StatePart(
-            name="worst",
-            data=WorstListSettings,
-            to_data=self.worst_list.settings,
-            restore=self.worst_list.restore,
-        )
-        yield StatePart(
-            name="corners",
-            data=bool,
-            to_data=self.panel.corners_box.isChecked,
-            restore=self.panel.corners_box.setChecked,
-        )
+        worst = self.worst_list
+        yield saved_values("worst", metric=worst.metric_box, isolate=worst.isolate, corners=self.panel.corners_box)
 
     def panels(self) -> Iterable[Panel]:
         """Yield the list of the worst hexes and the panel of the selected hex."""
@@ -212,7 +203,7 @@ class FeatureHexInspector(Feature):
             self.host.raise_if_open("hex")
 
     def _go_to_worst(self, h: int) -> None:
-        if self.worst_list.isolates:
+        if self.worst_list.isolate.isChecked():
             self._view.isolate((h,))
         self._selection.visit(h)
         self.worst_list.set_selected(h)  # before the refresh: the next step through the list begins at this hex

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,6 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, measure
 from hexmend.report.documents import write_text
-from hexmend_app.codec.checks import check_known
 from hexmend_app.state.mesh.selection import WorstHexes
 from hexmend_app.theme.palette import INVERTED_TEXT
 from hexmend_app.theme.spacing import fill
@@ -115,17 +113,6 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
     write_text(Path(path), out.getvalue())
 
 
-@dataclass(frozen=True)
-class WorstListSettings:
-    """The metric of the list, and whether a selected hex is isolated."""
-
-    metric: str
-    isolates: bool
-
-    def __post_init__(self) -> None:
-        check_known("metric", (self.metric,), METRICS)
-
-
 class WorstList(QWidget):
     """Lists the worst hexes by a metric, worst first, and steps through them.
 
@@ -147,15 +134,15 @@ class WorstList(QWidget):
         self._selected: int | None = None
         self._visited: int | None = None  # the hex from which next and previous go on
         self._stale = False
-        self._metric = ComboBox()
+        self.metric_box = ComboBox()
         for metric in metrics_offered():
-            self._metric.add(tr(metric.title), described(metric), metric.name)
-        set_help(self._metric, tr("Worst by"), tr(_ORDER))
-        self._metric.currentIndexChanged.connect(self._begin_again)
-        self._metric.currentIndexChanged.connect(self._refresh)
-        self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
+            self.metric_box.add(tr(metric.title), described(metric), metric.name)
+        set_help(self.metric_box, tr("Worst by"), tr(_ORDER))
+        self.metric_box.currentIndexChanged.connect(self._begin_again)
+        self.metric_box.currentIndexChanged.connect(self._refresh)
+        self.metric_box.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
         help = tr("Show only the selected hex and its neighbours; Esc shows all hexes again.")
-        self._isolate = check_box(tr("Isolate"), help, on=True)
+        self.isolate = check_box(tr("Isolate"), help, on=True)
         help = tr("Save the list as CSV, one line per hex.")
         self.save_button = icon_button("content-save-outline", tr("Save list"), help)
         self._model = WorstModel(self)
@@ -179,19 +166,10 @@ class WorstList(QWidget):
 
     def _lay_out(self) -> None:
         previous, following = ActionButton("previous_worst", "chevron-up"), ActionButton("next_worst", "chevron-down")
-        buttons = (self._isolate, previous, following, self.save_button)
-        label = labelled(tr("Worst by"), self._metric)
-        head = fill(QHBoxLayout(), label, self._metric, None, *buttons, spacing=4)
+        buttons = (self.isolate, previous, following, self.save_button)
+        label = labelled(tr("Worst by"), self.metric_box)
+        head = fill(QHBoxLayout(), label, self.metric_box, None, *buttons, spacing=4)
         fill(QVBoxLayout(self), head, (self._table, 1), self._text, margins=(8, 4, 8, 4), spacing=4)
-
-    def settings(self) -> WorstListSettings:
-        """Return the current settings."""
-        return WorstListSettings(self.chosen_metric, self.isolates)
-
-    def restore(self, settings: WorstListSettings) -> None:
-        """Apply settings."""
-        self._metric.setCurrentIndex(self._metric.findData(settings.metric))
-        self._isolate.setChecked(settings.isolates)
 
     # Contents
 
@@ -215,11 +193,6 @@ class WorstList(QWidget):
         self._select_row()
 
     @property
-    def isolates(self) -> bool:
-        """True if a hex selected in the list is isolated with its neighbours."""
-        return self._isolate.isChecked()
-
-    @property
     def hexes(self) -> np.ndarray:
         """Numbers of the listed hexes, worst first: (k,) int64."""
         self._refresh_if_stale()
@@ -236,7 +209,7 @@ class WorstList(QWidget):
     @property
     def chosen_metric(self) -> str:
         """Metric by which the list is sorted."""
-        return self._metric.currentData()
+        return self.metric_box.currentData()
 
     def _refresh_if_stale(self) -> None:
         if self._stale:

@@ -13,7 +13,6 @@ from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.quality import METRICS, measure
 from hexmend.report.documents import write_text
 from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
 from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
@@ -26,6 +25,7 @@ from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.view.side_views import Snapshot
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
+from hexmend_app.widgets.inputs.saved_values import saved_values
 from hexmend_app.widgets.wording import noun_of, noun_of_cells
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
@@ -59,12 +59,8 @@ class FeatureHistogram(Feature):
 
     def states(self) -> Iterable[StatePart]:
         """Yield the settings of the histogram."""
-        yield StatePart(
-            name="histogram",
-            data=HistogramSettings,
-            to_data=self.panel.head.settings,
-            restore=self.panel.head.restore,
-        )
+        head = self.panel.head
+        yield saved_values("histogram", log=head.log, cumulative=head.cumulative, bins=head.bins)
 
     def panels(self) -> Iterable[Panel]:
         """Yield the histogram."""

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QSpinBox, QWidget, QWidgetAction
 
 from hexmend.quality import METRICS
-from hexmend_app.codec.checks import check_count
 from hexmend_app.report.distribution import DEFAULT_BINS, MAX_BINS, MIN_BINS
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import icon, narrow, set_help, smaller, tabular
@@ -25,18 +23,6 @@ _KEEP = "Keep the current distribution to compare it with later ones, for exampl
 _SAVE = "Save the histogram as SVG, PDF or PNG, or its counts as CSV."
 _FULL = "Remove a distribution first: at most six can be kept."
 _BINS = "Number of bins."
-
-
-@dataclass(frozen=True)
-class HistogramSettings:
-    """Settings of the histogram: logarithmic counts, cumulative counts, number of bins."""
-
-    log: bool
-    cumulative: bool
-    bins: int
-
-    def __post_init__(self) -> None:
-        check_count("bins", self.bins)
 
 
 class HistogramHead(QWidget):
@@ -103,16 +89,6 @@ class HistogramHead(QWidget):
         bins.setDefaultWidget(self.bins)
         self.more.menu().addAction(bins)
         self.save = self.more.add(tr("Save…"), tr(_SAVE))
-
-    def settings(self) -> HistogramSettings:
-        """Return the settings except the metric."""
-        return HistogramSettings(self.log.isChecked(), self.cumulative.isChecked(), self.bins.value())
-
-    def restore(self, settings: HistogramSettings) -> None:
-        """Apply settings."""
-        self.log.setChecked(settings.log)
-        self.cumulative.setChecked(settings.cumulative)
-        self.bins.setValue(settings.bins)
 
     def show_metric(self, name: str, as_colours: bool) -> None:
         """Show a metric, without emitting a signal; `as_colours` if it follows the metric of the colours."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from functools import partial
 from typing import NamedTuple
 
 from PySide6.QtGui import QGuiApplication
@@ -12,7 +11,6 @@ from hexmend.cli.commands.smooth.suggested_command import RunOptions, smooth_com
 from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.codec.checks import check_count
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
@@ -22,6 +20,7 @@ from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
+from hexmend_app.widgets.inputs.saved_values import saved_values
 from hexmend_app.widgets.wording import figure
 
 #: Goal of Mend and metric of the colours.
@@ -144,13 +143,7 @@ class FeatureSmooth(Feature):
 
     def states(self) -> Iterable[StatePart]:
         """Yield the number of iterations of a step."""
-        yield StatePart(
-            name="steps",
-            data=int,
-            to_data=lambda: self.panel.steps,
-            restore=self.panel.set_steps,
-            check=partial(check_count, "steps"),
-        )
+        yield saved_values("steps", iterations=self.panel.steps)
 
     def panels(self) -> Iterable[Panel]:
         """Yield the panel with the method and its parameters."""
@@ -198,7 +191,7 @@ class FeatureSmooth(Feature):
         if self._state().step and (stage := self.session.run_setup.checked_stage()) is not None:
             if self._smoothing.phase is Phase.PAUSED:
                 self._change(stage)
-            self.session.commands.step(stage, self.panel.steps)
+            self.session.commands.step(stage, self.panel.steps.value())
 
     def _change(self, stage: Stage) -> None:
         """Continue the paused run with a stage, if it differs from the active one."""

@@ -98,12 +98,12 @@ class SmoothingPanel(QWidget):
 
     def _pauses(self) -> QWidget:
         """Return the form with the iterations of a step and the breakpoints."""
-        self._steps = QSpinBox()
-        self._steps.setRange(1, 9999)
-        self._steps.setFont(tabular(self._steps.font()))
-        set_help(self._steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
-        label = labelled(tr("Iterations per step"), self._steps)
-        row = fill(QHBoxLayout(), (label, 1), self._steps, spacing=4)
+        self.steps = QSpinBox()
+        self.steps.setRange(1, 9999)
+        self.steps.setFont(tabular(self.steps.font()))
+        set_help(self.steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
+        label = labelled(tr("Iterations per step"), self.steps)
+        row = fill(QHBoxLayout(), (label, 1), self.steps, spacing=4)
         form = QWidget()
         fill(QVBoxLayout(form), row, self.breakpoint_form, margins=(0, 0, 0, 0), spacing=4)
         return form
@@ -140,15 +140,6 @@ class SmoothingPanel(QWidget):
     def _show_sentence(self, sentence: str, role: Role) -> None:
         tint(self._sentence, role)
         self._sentence.setText(sentence)
-
-    @property
-    def steps(self) -> int:
-        """Number of iterations per step."""
-        return self._steps.value()
-
-    def set_steps(self, count: int) -> None:
-        """Set the number of iterations per step."""
-        self._steps.setValue(count)
 
     def _show_problem(self) -> None:
         """Show the first invalid value and a message until it is corrected."""

@@ -217,8 +217,3 @@ class Panes:
         """Prepare for a fine frame."""
         for view in self.visible:
             view.still()
-
-    def shade(self) -> None:
-        """Compute the shading of a fine frame in this thread."""
-        for view in self.visible:
-            view.shade()

@@ -193,7 +193,7 @@ class Session(QObject):
     def close(self) -> None:
         """Cancel the tasks of all parts; `wait_for_dropped` waits for their threads."""
         for part in (
-            self.run, self.comparison, self.feature_states, self.opener, self.time_reader, self.structure_finder,
+            self.run, self.comparison, self.opener, self.time_reader, self.structure_finder,
             self.boundary_classifier, self.node_step_task, self.mesh_checker, self.saver, self.repairer, self.padder,
         ):  # fmt: skip
             part.close()

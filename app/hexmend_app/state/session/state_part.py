@@ -1,4 +1,4 @@
-"""State parts: how each part of a session is saved, restored and closed."""
+"""State parts: how each part of a session is saved and restored."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def _nothing(*_: object) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class StatePart:
-    """Part of a session: its name in session files, and functions that save, restore and close it.
+    """Part of a session: its name in session files, and functions that save and restore it.
 
     Parameters
     ----------
@@ -32,8 +32,6 @@ class StatePart:
         Declared type of the data, which `hexmend_app.codec.conversion` converts. Required for parts of features.
     check : callable, optional
         Raises `ValueError` if data of the type cannot be restored.
-    close : callable, optional
-        Ends all work of the part: the window is closing.
     changed : Signal, optional
         Emitted when the data have changed, so that the session is saved automatically.
     """
@@ -43,7 +41,6 @@ class StatePart:
     restore: Callable[[Any], object]
     data: Any = None
     check: Callable[[Any], object] = _nothing
-    close: Callable[[], object] = _nothing
     changed: Any = None
 
 
@@ -100,11 +97,6 @@ class FeatureStates(QObject):
     def forget_undeclared(self) -> None:
         """Drop the data of parts that are not declared: they belong to the mesh that was open."""
         self._unclaimed.clear()
-
-    def close(self) -> None:
-        """End all work of the parts."""
-        for part in self._parts.values():
-            part.close()
 
     def _restore(self, part: StatePart, encoded: Any) -> None:
         try:

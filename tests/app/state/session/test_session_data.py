@@ -65,7 +65,7 @@ def test_a_session_is_unchanged_by_reading_and_writing_it(path, tmp_path):
     np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
 
 
-# State parts of features: restored late, closed, saved automatically, and of one mesh only.
+# State parts of features: restored late, saved automatically, and of one mesh only.
 
 
 class Counter(QObject):
@@ -75,17 +75,14 @@ class Counter(QObject):
 
     def __init__(self):
         super().__init__()
-        self.number, self.closed = 0, False
+        self.number = 0
 
     def restore(self, number):
         self.number = number
 
-    def close(self):
-        self.closed = True
-
     def part(self):
         return StatePart(name="test-counter", data=int, to_data=lambda: self.number, restore=self.restore,
-                         close=self.close, changed=self.changed)  # fmt: skip
+                         changed=self.changed)  # fmt: skip
 
 
 @pytest.fixture
@@ -112,11 +109,9 @@ def test_data_of_another_mesh_are_neither_restored_nor_saved(session):
     assert session.feature_states.to_data() == {"test-counter": 0}
 
 
-def test_a_part_is_saved_after_changes_and_closed_with_the_session(qapp):
+def test_a_part_is_saved_after_changes(qapp):
     session, counter, changes = Session(), Counter(), []
     session.feature_states.add(counter.part())
     session.data_changed.connect(lambda: changes.append(counter.number))
     counter.changed.emit()
     assert changes == [0]
-    session.close()
-    assert counter.closed
