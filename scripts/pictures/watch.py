@@ -29,7 +29,7 @@ def timeline(window: Window) -> None:
     panel = window.features["smooth"].panel
     set_method(window, "laplacian", tolerance=0.0)
     next(section for section in panel.findChildren(Section) if section.isAncestorOf(panel.breakpoint_form)).expand()
-    panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True))
+    window.session.run.set_breakpoints(Breakpoints(inverts=True))
     window.features["smooth"].run_or_pause()
     wait_until(lambda: window.session.run.phase is Phase.PAUSED)
     window.session.timeline.step(-1)

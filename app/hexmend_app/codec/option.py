@@ -20,9 +20,10 @@ _LETTERS = r"[^\x00-\x1f\x7f-\x9f\u2028\u2029]"
 class Option(NamedTuple):
     """Declaration of a key of a table.
 
-    `name` is the name in files, and `field` the name in the dataclass. `low` and `high` bound a number, or each number
-    of a list; `most` is the maximum number of entries of a list or of letters of a text; `open_ended` admits infinity.
-    `offered` are the texts that the window suggests. A dataclass that is not a table has no bounds: `bounded` is False.
+    `name` is the name in files, and `field` the name in the dataclass. `low` and `high` bound a number, or each
+    number of a list; `most` is the maximum number of entries of a list or of letters of a text; `open_ended` admits
+    infinity. `offered` are the texts that the window suggests, `titles` those of the members of an enumeration. A
+    dataclass that is not a table has no bounds: `bounded` is False.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Option(NamedTuple):
     unit: str = ""
     open_ended: bool = False
     offered: tuple[str, ...] = ()
+    titles: tuple[str, ...] = ()
     bounded: bool = True
 
     @property

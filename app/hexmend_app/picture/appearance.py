@@ -45,22 +45,23 @@ class Arrows(StrEnum):
 
 
 @dataclass(frozen=True)
-class Traces:
+class Traces(ConfigTable):
     """Drawing of the displacement since an earlier state, in addition to the colours.
 
     Parameters
     ----------
     since : Since
-        Reference state of arrows and of colours of a movement.
+        Reference state of arrows, of counts and of colours of a movement.
     arrows : Arrows
-        Nodes with arrows.
+        Nodes with arrows to their positions: those of visible faces, paler where they are hidden, or those of all shown
+        hexes, drawn through the faces before them. Nodes of the boundary move only if they slide.
     factor : float
         Length of arrows as a multiple of the displacement.
     """
 
-    since: Since = Since.OPENED
-    arrows: Arrows = Arrows.NONE
-    factor: float = 1.0
+    since: Since = option(Since.OPENED, titles=("file opened", "run started", "last iteration"))
+    arrows: Arrows = option(Arrows.NONE, titles=("none", "at visible faces", "at all shown hexes"))
+    factor: float = option(1.0, low=0.01, high=100_000)
 
 
 @dataclass(frozen=True)

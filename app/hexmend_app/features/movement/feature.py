@@ -2,44 +2,21 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable
-from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QPushButton, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Feature, Host, Panel, PanelPlace
-from hexmend_app.picture.appearance import Arrows, Since, Traces
+from hexmend_app.picture.appearance import Arrows, Traces
 from hexmend_app.picture.displacement import Displacement, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
-from hexmend_app.theme.style import set_help, small_label, tabular
+from hexmend_app.theme.spacing import fill
+from hexmend_app.theme.style import set_help, small_label
 from hexmend_app.translation import tr
-from hexmend_app.widgets.form import form_layout
-from hexmend_app.widgets.inputs.combo import ComboBox, let_shrink
+from hexmend_app.widgets.inputs.key_form import KeyForm
 from hexmend_app.widgets.wording import counted, figure, short_number
-
-_SINCE = (
-    (Since.OPENED, "file opened", "Compare with the mesh as it was opened."),
-    (Since.RUN, "run started", "Compare with the mesh at the start of the run."),
-    (Since.ITERATION, "last iteration", "Compare each iteration with the previous stored iteration."),
-)
-_ARROWS = (
-    (Arrows.NONE, "none", "No arrows."),
-    (
-        Arrows.SIGHT,
-        "at visible faces",
-        "Arrows at the nodes of visible faces, from the old to the new position; pale where they are hidden. Boundary "
-        "nodes move only if they slide: cut or peel the mesh to see others.",
-    ),
-    (Arrows.ALL, "at all shown hexes", "Arrows at the nodes of all shown hexes, drawn through the faces before them."),
-)
-_SINCE_HELP = (
-    "State with which the displacement compares the mesh: in the colours Distance moved, Change of q(H) and Distance "
-    "from the surface, in the arrows, and in the counts below."
-)
-_FACTOR = "Scale factor of the arrows relative to the displacement."
 
 
 class FeatureMovement(Feature):
@@ -93,8 +70,7 @@ class MovementPanel(QWidget):
 
     Attributes
     ----------
-    since, arrows : ComboBox
-    factor : QDoubleSpinBox
+    form : KeyForm
     show_newly : QPushButton
 
     Signals
@@ -108,43 +84,24 @@ class MovementPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._traces = Traces()
-        self.since, self.arrows = _box(_SINCE), _box(_ARROWS)
-        set_help(self.since, tr("Since"), tr(_SINCE_HELP))
-        set_help(self.arrows, tr("Arrows"), tr("Arrows from the old to the new positions of nodes."))
-        self.factor = QDoubleSpinBox()
-        self.factor.setRange(0.01, 100_000)
-        self.factor.setDecimals(2)
-        self.factor.setStepType(QAbstractSpinBox.StepType.AdaptiveDecimalStepType)
-        self.factor.setPrefix("× ")
-        self.factor.setKeyboardTracking(False)
-        self.factor.setFont(tabular(self.factor.font()))
-        set_help(self.factor, tr("Length of arrows"), tr(_FACTOR))
+        self.form = KeyForm(self._traces, ("since", "arrows", "factor"))
         self.show_newly = QPushButton(tr("Show newly invalid"))
         self._drawn, self._counts = small_label(), small_label()
         self._drawn.setAccessibleName(tr("Number of arrows"))
         self._counts.setAccessibleName(tr("Counts of the movement"))
-        form = form_layout(self)
-        form.addRow(tr("Since"), self.since)
-        form.addRow(tr("Arrows"), self.arrows)
-        form.addRow(tr("Length"), self.factor)
-        for widget in (self._drawn, self._counts, self.show_newly):
-            form.addRow(widget)
-        self.since.activated.connect(lambda: self._change(since=Since(self.since.currentData())))
-        self.arrows.activated.connect(lambda: self._change(arrows=Arrows(self.arrows.currentData())))
-        self.factor.valueChanged.connect(lambda value: self._change(factor=value))
+        parts = (self.form, self._drawn, self._counts, self.show_newly)
+        fill(QVBoxLayout(self), *parts, margins=(0, 0, 0, 0), spacing=4)
+        self.form.changed.connect(self._on_changed)
         self.set_traces(self._traces)
         self.set_counts(None, "", 0)
         self.set_arrows(0, 0)
 
     def set_traces(self, traces: Traces) -> None:
         """Show the reference state and the arrows, without emitting a signal."""
-        self._traces = traces
-        self.since.setCurrentIndex(self.since.findData(traces.since.value))
-        self.arrows.setCurrentIndex(self.arrows.findData(traces.arrows.value))
-        self.factor.setEnabled(traces.arrows is not Arrows.NONE)
-        if self.factor.value() != traces.factor:
-            with QSignalBlocker(self.factor):
-                self.factor.setValue(traces.factor)
+        if traces != self._traces:
+            self._traces = traces
+            self.form.show_table(traces)
+        self.form.editors["factor"].setEnabled(traces.arrows is not Arrows.NONE)
 
     def set_arrows(self, drawn: int, moved: int) -> None:
         """Show the number of arrows that are drawn, of `moved` nodes."""
@@ -168,11 +125,10 @@ class MovementPanel(QWidget):
         set_help(self.show_newly, tr("Show newly invalid"), help if enabled else tr("No hex is newly invalid."))
         self._counts.setText(tr("No mesh is open.") if counts is None else counts_in_words(counts, name, free))
 
-    def _change(self, **fields: Any) -> None:
-        traces = dataclasses.replace(self._traces, **fields)
-        if traces != self._traces:
-            self.set_traces(traces)
-            self.traces_changed.emit(traces)
+    def _on_changed(self) -> None:
+        if not self.form.problems():
+            self._traces = self.form.table(self._traces)
+            self.traces_changed.emit(self._traces)
 
 
 def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
@@ -208,12 +164,3 @@ def counts_in_words(counts: DisplacementCounts, name: str, free: int) -> str:
     changes = {"newly": counts.newly_invalid, "repaired": counts.mended}
     sentences.append(tr("{newly:,} newly invalid, {repaired:,} repaired.", **changes))
     return "\n".join(sentences)
-
-
-def _box(options: tuple[tuple[Any, str, str], ...]) -> ComboBox:
-    """Return a combo box of values with texts and tooltips."""
-    box = ComboBox()
-    let_shrink(box, 8)
-    for value, text, help in options:
-        box.add(tr(text), tr(help), value.value)
-    return box

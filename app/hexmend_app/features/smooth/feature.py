@@ -14,6 +14,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.run_record import balances
+from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.settings import settings
@@ -69,7 +70,8 @@ class FeatureSmooth(Feature):
         commands.memory_short.connect(self._ask_for_memory)
         self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
-        panel.breakpoint_form.changed.connect(smoothing.set_breakpoints)
+        form = panel.breakpoint_form
+        form.changed.connect(lambda: smoothing.set_breakpoints(Breakpoints(**form.values())))
         smoothing.show_every(settings.EVERY_ITERATION.get())
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
@@ -161,12 +163,13 @@ class FeatureSmooth(Feature):
         """Show the progress of the run, or the run that produced the displayed mesh."""
         session, phase = self.session, self._smoothing.phase
         self.panel.setEnabled(self._ready())
-        if session.document.is_open and self._seen.changed("mesh", session.document.start):
-            breakpoints, form = self._smoothing.breakpoints, self.panel.breakpoint_form
-            form.set_mesh(session.document.now.mesh.n_elements, session.document.now.mesh.n_nodes)
-            form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
         if session.document.is_open:
-            self.panel.show_rules(session.document.now.mesh)
+            mesh, form = session.document.now.mesh, self.panel.breakpoint_form
+            self.panel.show_rules(mesh)
+            if self._seen.changed("mesh", session.document.start):
+                form.set_declarations(Breakpoints.numbered(mesh.n_elements, mesh.n_nodes))
+            if form.values() != self._smoothing.breakpoints.values():
+                form.set_values(self._smoothing.breakpoints.values())
         if phase is not Phase.PAUSED:
             self._hit = None
         editable = self._state().edit

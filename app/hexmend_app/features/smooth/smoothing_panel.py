@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSpinBox, QVBoxLayout, Q
 
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import Parameter, declared
+from hexmend.parameters import declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -30,18 +30,6 @@ from hexmend_app.widgets.wording import counted, duration
 
 # Lines that most status sentences need at most.
 _LINES = 2
-_INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
-_FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
-_NODE = "Pause when the node with this number moves further than the limit below in one iteration."
-_MOVE = "Limit of the node's move, in mean edge lengths."
-_HEX = "Pause when q(H) of the hex with this number changes by more than the limit below in one iteration."
-_CHANGE = "Limit of the change of q(H)."
-_BACKTRACKS = (
-    "Pause when the line search (Algorithm A.5) shortens the step more often than this. Not available for methods that "
-    "search node by node."
-)
-#: Word for a breakpoint that is not set.
-_NONE = "none"
 
 
 class SmoothingPanel(QWidget):
@@ -66,8 +54,8 @@ class SmoothingPanel(QWidget):
         method_row = QFormLayout()
         method_row.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         method_row.addRow(tr("Method"), stage.method)
-
-        self.breakpoint_form, self.rule_form = BreakpointForm(), RuleForm()
+        breakpoints = ParameterForm(declared(Breakpoints), has_buttons=False)
+        self.breakpoint_form, self.rule_form = breakpoints, RuleForm()
         rules = tr("Rules of motion of the nodes on interfaces and in named sets, for methods and recipes.")
         self._rules = Section(self.rule_form.title, self.rule_form, rules)
         self._rules.hide()
@@ -149,57 +137,6 @@ class SmoothingPanel(QWidget):
             form.focus_problem()
             self._refused = True
             self._show_sentence(tr("Correct the marked value first."), WORSE)
-
-
-class BreakpointForm(QWidget):
-    """Form that edits the breakpoints of a run.
-
-    Signals
-    -------
-    changed(Breakpoints)
-        The breakpoints have changed.
-    """
-
-    changed = Signal(object)
-
-    def __init__(self, parent: QWidget | None = None):
-        super().__init__(parent)
-        self._form = ParameterForm(_declarations(0, 0), has_buttons=False)
-        fill(QVBoxLayout(self), self._form, margins=(0, 0, 0, 0))
-        self._form.changed.connect(lambda: self.changed.emit(self.breakpoints()))
-
-    def breakpoints(self) -> Breakpoints:
-        """Return the breakpoints set in the form."""
-        values = self._form.values()
-        return Breakpoints(**{name: None if value == _NONE else value for name, value in values.items()})
-
-    def set_breakpoints(self, breakpoints: Breakpoints) -> None:
-        """Show breakpoints."""
-        values = vars(breakpoints)
-        self._form.set_values({name: _NONE if value is None else value for name, value in values.items()})
-        self.changed.emit(breakpoints)
-
-    def set_mesh(self, hexes: int, nodes: int) -> None:
-        """Set the size of a new mesh; all breakpoints are removed."""
-        self._form.set_declarations(_declarations(hexes, nodes))
-        self.changed.emit(self.breakpoints())
-
-
-def _declarations(hexes: int, nodes: int) -> list[Parameter]:
-    """Return the declarations of the fields of `Breakpoints` for a mesh of a size."""
-
-    def number(name: str, count: int, label: str, help: str) -> Parameter:
-        return Parameter(name, int, _NONE, 0, max(count - 1, 0), label=label, help=help, automatic=_NONE)
-
-    return [
-        Parameter("inverts", bool, False, label="A hex inverts", help=_INVERTS),
-        Parameter("q_min_falls", bool, False, label="Minimum q drops", help=_FALLS),
-        number("node", nodes, "Node no.", _NODE),
-        Parameter("move", float, 0.1, 0, 9.999, label="Move above", unit="edges", help=_MOVE),
-        number("hex", hexes, "Hex no.", _HEX),
-        Parameter("change", float, 0.1, 0, 9.999, label="Change of q above", help=_CHANGE),
-        number("backtracks", 100, "Backtracks above", _BACKTRACKS),
-    ]
 
 
 class StageForm(QObject):

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hexmend.iteration import Iteration
+from hexmend.parameters import Parameter, Parametrised, declared, parameter
 from hexmend.terminal_text import count_phrase
+
+#: Value of a breakpoint that is not set.
+NONE = "none"
 
 
 @dataclass(frozen=True)
@@ -29,36 +33,55 @@ class BreakpointHit:
 
 
 @dataclass(frozen=True)
-class Breakpoints:
-    """Events at which a run pauses; none by default.
+class Breakpoints(Parametrised):
+    """Events at which a run pauses; none by default."""
 
-    Parameters
-    ----------
-    inverts : bool
-        Pause when a hex becomes inverted.
-    q_min_falls : bool
-        Pause when the least quality falls.
-    node, move : int or None, float
-        Pause when this node moves further than `move` mean edge lengths in an iteration.
-    hex, change : int or None, float
-        Pause when the quality of this hex changes by more than `change` in an iteration.
-    backtracks : int or None
-        Pause when the line search shortens the step more often than this. Methods with a line search for each node do
-        not report it.
-    """
+    inverts: bool = parameter(
+        False, label="A hex inverts", help="Pause after an iteration that inverts a valid hex, and select that hex."
+    )
+    q_min_falls: bool = parameter(
+        False,
+        label="Minimum q drops",
+        help="Pause after an iteration that lowers the minimum quality, and select the worst hex.",
+    )
+    node: int = parameter(
+        NONE,
+        low=0,
+        label="Node no.",
+        help="Pause when the node with this number moves further than the limit below in one iteration.",
+        automatic=NONE,
+    )
+    move: float = parameter(
+        0.1, low=0, high=9.999, label="Move above", unit="edges", help="Limit of the move, in mean edge lengths."
+    )
+    hex: int = parameter(
+        NONE,
+        low=0,
+        label="Hex no.",
+        help="Pause when q(H) of the hex with this number changes by more than the limit below in one iteration.",
+        automatic=NONE,
+    )
+    change: float = parameter(0.1, low=0, high=9.999, label="Change of q above", help="Limit of the change of q(H).")
+    backtracks: int = parameter(
+        NONE,
+        low=0,
+        high=99,
+        label="Backtracks above",
+        help="Pause when the line search (Algorithm A.5) shortens the step more often than this. Not available for "
+        "methods that search node by node.",
+        automatic=NONE,
+    )
 
-    inverts: bool = False
-    q_min_falls: bool = False
-    node: int | None = None
-    move: float = 0.1
-    hex: int | None = None
-    change: float = 0.1
-    backtracks: int | None = None
+    @classmethod
+    def numbered(cls, hexes: int, nodes: int) -> list[Parameter]:
+        """Return the declarations for a mesh of this many hexes and nodes."""
+        highest = {"hex": hexes - 1, "node": nodes - 1}
+        return [replace(one, high=highest.get(one.name, one.high)) for one in declared(cls)]
 
     @property
     def any(self) -> bool:
         """True if any event is set."""
-        return self.inverts or self.q_min_falls or {self.node, self.hex, self.backtracks} != {None}
+        return self.inverts or self.q_min_falls or {self.node, self.hex, self.backtracks} != {NONE}
 
     def hit(self, before: Iteration, now: Iteration, unit: float) -> BreakpointHit | None:
         """Return the first break-point that an iteration reaches, in the order of the fields, or None.
@@ -81,13 +104,13 @@ class Breakpoints:
         if self.q_min_falls and q.min() < was.min():
             worst = int(q.argmin())
             yield BreakpointHit(f"q min fell from {was.min():.4f} to {q[worst]:.4f}, at hex {worst}", (worst,))
-        if self.node is not None:
+        if self.node != NONE:
             move = float(np.linalg.norm(now.points[self.node] - before.points[self.node])) / unit
             if move > self.move:
                 yield BreakpointHit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
-        if self.hex is not None and abs(float(q[self.hex]) - float(was[self.hex])) > self.change:
+        if self.hex != NONE and abs(float(q[self.hex]) - float(was[self.hex])) > self.change:
             yield BreakpointHit(f"q of hex {self.hex} went from {was[self.hex]:.4f} to {q[self.hex]:.4f}", (self.hex,))
         count = now.diagnostics.get("backtracks", 0)
-        if self.backtracks is not None and count > self.backtracks:
+        if self.backtracks != NONE and count > self.backtracks:
             length = now.diagnostics.get("step_length", 0.0)
             yield BreakpointHit(f"The line search shortened the step {count_phrase(count, 'time')}, to {length:.3g}")

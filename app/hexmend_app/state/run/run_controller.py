@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from enum import Enum
 from functools import partial
+from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -19,7 +20,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
-from hexmend_app.state.run.breakpoints import Breakpoints
+from hexmend_app.state.run.breakpoints import NONE, Breakpoints
 from hexmend_app.state.run.run_setup import rules_text, settings_text
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
@@ -247,7 +248,8 @@ class RunController(QObject):
         """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""
         self.close()
         self.work = self.record = self.advice = self.outcome = self._result = None
-        self.breakpoints = replace(self.breakpoints, hex=None, node=None)  # numbers of the previous mesh
+        of_mesh: dict[str, Any] = {"hex": NONE, "node": NONE}
+        self.breakpoints = replace(self.breakpoints, **of_mesh)
         self._set_phase(Phase.IDLE)
 
     def close(self) -> None:

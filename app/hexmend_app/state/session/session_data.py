@@ -20,7 +20,7 @@ from hexmend_app.picture.camera import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, MeasuredMesh
 from hexmend_app.state.mesh.history import HistoryData
 from hexmend_app.state.mesh.selection import SelectionData
-from hexmend_app.state.run.breakpoints import Breakpoints
+from hexmend_app.state.run.breakpoints import NONE, Breakpoints
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.run_setup import RecipeDraftData, RunSetupData
 from hexmend_app.state.view.side_views import SideViewsData, Snapshot
@@ -59,7 +59,7 @@ class SessionData:
         for snapshot in self.snapshots:
             snapshot.check(hexes, nodes)
         for number, count in ((self.run.hex, hexes), (self.run.node, nodes)):
-            if not 0 <= (number or 0) < count:
+            if number != NONE and number >= count:
                 raise ValueError(f"a breakpoint is at hex or node {number}, of which there are {count}")
         if not 0 <= (self.timeline or 0) < max(len(self.history.records), self.timeline is None):
             raise ValueError(f"there is no run {self.timeline}")

@@ -83,7 +83,7 @@ def _declaration(option: Option, help: str) -> Parameter:
     if option.offered:
         return Parameter(name, str, option.default, help=help, suggestions=option.offered)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
-        return Parameter(name, str, option.default.value, choices=tuple(kind), help=help)
+        return Parameter(name, str, option.default.value, choices=tuple(kind), titles=option.titles, help=help)
     return Parameter(name, str, "", unit=option.unit, help=help)
 
 

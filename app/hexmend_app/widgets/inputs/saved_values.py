@@ -45,7 +45,7 @@ def _fits(widget: Saved, value: Value) -> bool:
         return False
     if isinstance(widget, QComboBox):
         return widget.findData(value) >= 0
-    return not isinstance(widget, QSpinBox) or widget.minimum() <= value <= widget.maximum()
+    return not isinstance(widget, QSpinBox) or widget.minimum() <= int(value) <= widget.maximum()
 
 
 def _value(widget: Saved) -> Value:

@@ -50,7 +50,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
         viewport.colours.values, window.session.document.now.quality.q - window.session.document.start.quality.q
     )
     go(window, record, 3)
-    choose(panel.since, Since.ITERATION)
+    choose(panel.form.editors["since"], Since.ITERATION)
     then = window.session.history.state(type(timeline.shown_iteration)(record, 2), window.session.document.now.mesh)
     np.testing.assert_allclose(viewport.colours.values, window.session.document.now.quality.q - then.quality.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
@@ -68,19 +68,19 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
 @pytest.mark.slow
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
-    choose(panel.arrows, Arrows.ALL)
+    choose(panel.form.editors["arrows"], Arrows.ALL)
     layer = window.canvas.viewport.overlay_layers.arrows
     assert (layer.drawn, layer.moved) == (free, free)
     assert arrows_text(panel) == f"{free:,} arrows, true length."
-    choose(panel.arrows, Arrows.SIGHT)
+    choose(panel.form.editors["arrows"], Arrows.SIGHT)
     assert arrows_text(panel) == "No visible node has moved."
     window.session.view.set_cut(Cut.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
     window.refresh()
     before = pixels(window)
     assert 0 < layer.drawn < free
-    type_text(panel.factor.lineEdit(), "4")
-    QTest.keyClick(panel.factor, Qt.Key.Key_Return)
+    type_text(panel.form.editors["factor"].lineEdit(), "4")
+    QTest.keyClick(panel.form.editors["factor"], Qt.Key.Key_Return)
     assert window.session.view.look.movement.factor == 4
     window.refresh()
     assert arrows_text(panel).endswith("4 × true length.")

@@ -34,7 +34,7 @@ def work(window, qtbot):
     session.run_setup.choose(Stage(METHODS["getme"](relaxation=0.6), StoppingCriteria(max_iterations=77)), "a reason")
     session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
     session.recipe_draft.rename("two of them")
-    window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
+    session.run.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
     session.view.change(
         cut=Cut.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
         structure=Structure.of("sharp", "fixed"),

@@ -13,10 +13,9 @@ from hexmend import smooth as smoothed
 from hexmend.gallery import make
 from hexmend_app.features.smooth.feature import FeatureSmooth
 from hexmend_app.features.smooth.rule_form import RuleForm, rules_of_set, with_set_rules
-from hexmend_app.features.smooth.smoothing_panel import BreakpointForm, SmoothingPanel
+from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.run import worker
-from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.state.session import commands, session_data
@@ -522,33 +521,3 @@ def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     assert progress.text() == "12 iterations · 1.84 s"
     qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
     assert sentence.width() <= panel.width()
-
-
-# Form for breakpoints, without a run.
-
-
-@pytest.fixture
-def settings_form(qtbot):
-    settings_form = BreakpointForm()
-    qtbot.addWidget(settings_form)
-    settings_form.set_mesh(10, 20)
-    return settings_form
-
-
-@pytest.mark.parametrize("breakpoints", [
-    Breakpoints(),
-    Breakpoints(inverts=True, q_min_falls=True),
-    Breakpoints(node=3, move=0.25),
-    Breakpoints(hex=7, change=0.5, backtracks=9),
-])  # fmt: skip
-def test_breakpoints_are_emitted_and_read_back(settings_form, qtbot, breakpoints):
-    with qtbot.waitSignal(settings_form.changed) as told:
-        settings_form.set_breakpoints(breakpoints)
-    assert told.args == [breakpoints]
-    assert settings_form.breakpoints() == breakpoints
-
-
-def test_another_mesh_removes_breakpoints(settings_form):
-    settings_form.set_breakpoints(Breakpoints(inverts=True, node=19, hex=9))
-    settings_form.set_mesh(5, 6)
-    assert settings_form.breakpoints() == Breakpoints()

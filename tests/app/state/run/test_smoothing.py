@@ -301,4 +301,4 @@ def test_breakpoints_can_be_set_during_a_run(session, qtbot):
     qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])
     with qtbot.waitSignal(session.run.hit):
-        session.run.set_breakpoints(Breakpoints(hex=0, change=-1.0, node=node))
+        session.run.set_breakpoints(Breakpoints(node=node, move=0.0))
