@@ -11,17 +11,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from enum import Enum
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu, QWidget
 
+from hexmend.errors import HexmendError
 from hexmend_app.host import Host as Host
 from hexmend_app.state.session.state_part import StatePart as StatePart
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from hexmend_app.canvas.canvas import Canvas
 
 #: Menus in order; a name after a slash is that of a submenu.
@@ -205,11 +206,38 @@ class Feature(QObject):
         """Return True if the open mesh may be closed; may ask the user."""
         return True
 
-    def save_and_wait(self, path: str | Path) -> bool:
-        """Save the mesh, or the session if the path has its suffix, and wait; return True if it was written."""
-        saving = self.session.commands.save_in_background(path)
-        completed = self.host.wait_until(f"Saving {saving.path.name}…", lambda: saving.over)
-        return completed and saving.error is None
+    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
+        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
+        try:
+            act()
+        except HexmendError as error:
+            self.host.messages.show_error(failure, str(error))
+            return False
+        if success:
+            self.host.messages.show_info(success)
+        return True
+
+    def write_file(self, subject: str, path: str | Path, write: Callable[[Path], object]) -> bool:
+        """Write a file and tell so with buttons that open it and its folder, or show the error.
+
+        Parameters
+        ----------
+        subject : str
+            What is written, at the beginning of a sentence.
+        path : path-like
+        write : callable
+            Writes the file; may raise `HexmendError`.
+
+        Returns
+        -------
+        bool
+            True if the file was written.
+        """
+        path = Path(path)
+        if not self.try_and_report(tr("{subject} not saved", subject=subject), lambda: write(path)):
+            return False
+        self.host.messages.show_written(tr("{subject} saved to {path}", subject=subject, path=path), path)
+        return True
 
     def close(self) -> None:
         """Stop all tasks; called when the window closes."""

@@ -72,9 +72,6 @@ class Host(Protocol):
     def default_file_stem(self) -> str:
         """Default name of files to save, without suffix."""
 
-    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
-        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
-
 
 class ChangeReport(QObject):
     """Shows that a change is in progress, with a button to cancel it, and that it failed or was cancelled.

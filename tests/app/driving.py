@@ -9,6 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QLabel, QWidget
 
 from hexmend import METHODS, Stage, StoppingCriteria, io
+from hexmend_app.picture import Page
 from hexmend_app.state.run.run_controller import Phase
 
 LEFT = Qt.MouseButton.LeftButton
@@ -210,3 +211,9 @@ def sentence(window):
     """Return the sentence below the buttons of the run."""
     window.refresh()
     return named(window.features["smooth"].panel, QLabel, "Outcome").text()
+
+
+def write_picture(window, path, size):
+    """Write the view as a picture of a size; return True if it was written."""
+    scene = window.canvas.scene(Page(pixels=size), window.session.saved_cameras.all)
+    return window.features["export"].write_picture(path, scene)

@@ -2,7 +2,6 @@
 
 from PySide6.QtWidgets import QWidget
 
-from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.session.session import Session
@@ -37,15 +36,6 @@ class PlainHost:
 
     def refresh_soon(self):
         pass
-
-    def try_and_report(self, failure, act, success=""):
-        try:
-            act()
-        except HexmendError as error:
-            self.messages.show_error(failure, str(error))
-            return False
-        self.messages.show_info(success)
-        return True
 
 
 def action(feature: Feature, id: str) -> Action:

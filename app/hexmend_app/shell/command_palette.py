@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -160,21 +161,62 @@ def choice_entries(session: Session) -> Iterator[QAction]:
             yield entry(tr(metric.title), colour, tr(metric.meaning), tr("Colour by"))
 
 
+#: Words of names for words that other programs use.
+_SYNONYMS = {
+    "animation": "film",
+    "bad": "worst",
+    "clip": "cut",
+    "close": "quit",
+    "color": "colour",
+    "distance": "measure",
+    "exit": "quit",
+    "export": "save",
+    "font": "picture",
+    "gif": "film",
+    "hotkeys": "keys",
+    "image": "picture",
+    "load": "open",
+    "movie": "film",
+    "night": "dark",
+    "optimise": "mend",
+    "relax": "smooth",
+    "revert": "undo",
+    "ruler": "measure",
+    "screenshot": "picture",
+    "section": "cut",
+    "shortcuts": "keys",
+    "slice": "cut",
+    "terminal": "console",
+    "untangle": "mend",
+    "video": "film",
+    "wireframe": "edges",
+}
+_LEAST_LETTERS = 3
+
+
+def _meant(word: str) -> str:
+    """Return the word of names for a word of other programs, of which the first letters are enough."""
+    known = (name for other, name in _SYNONYMS.items() if len(word) >= _LEAST_LETTERS and other.startswith(word))
+    return next(known, word)
+
+
 def ranked(entries: Iterable[QAction], text: str) -> list[QAction]:
     """Return the entries that contain every word of a text, best match first; equal matches keep their order.
 
-    Matches at the start of the name rank first, then matches at starts of words of the name, then of the title; after
-    these, matches anywhere in the name, in the title, and in the help. Commands that cannot be run now come last; they
-    are left out without a text.
+    Matches at the start of the name rank first, then matches at starts of words of the name, then of the title;
+    after these, matches anywhere in the name, in the title, and in the help, and then those of words that other
+    programs use. Commands that cannot be run now come last; they are left out without a text.
     """
     words = text.lower().split()
+    meant = [_meant(word) for word in words]
     found = [one for one in entries if words or one.isEnabled()]
-    matches = [(not one.isEnabled(), rank, one) for one in found if (rank := _rank(one, words)) is not None]
+    ranks = ((one, min(_rank(one, words), 10 + _rank(one, meant))) for one in found)
+    matches = [(not one.isEnabled(), rank, one) for one, rank in ranks if rank < math.inf]
     return [one for *_, one in sorted(matches, key=lambda match: match[:2])]
 
 
-def _rank(entry: QAction, words: list[str]) -> int | None:
-    """Return the rank of a match, 0 for the best; None if the entry does not match."""
+def _rank(entry: QAction, words: list[str]) -> float:
+    """Return the rank of a match, 0 for the best; infinity if the entry does not match."""
     name, title = name_of(entry).lower(), title_of(entry).lower()
     if name.startswith(" ".join(words)):
         return 0
@@ -185,4 +227,4 @@ def _rank(entry: QAction, words: list[str]) -> int | None:
     for rank, text in enumerate((name, title, f"{title} {entry.statusTip().lower()}"), start=3):
         if all(word in text for word in words):
             return rank
-    return None
+    return math.inf

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
@@ -189,20 +190,7 @@ class Window(QMainWindow):
     def default_file_stem(self) -> str:
         """Default name of files to save, without suffix."""
         document = self.session.document
-        return document.path.stem if document.path else "mesh"
-
-    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
-        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
-        from hexmend.errors import HexmendError
-
-        try:
-            act()
-        except HexmendError as error:
-            self.messages.show_error(failure, str(error))
-            return False
-        if success:
-            self.messages.show_info(success)
-        return True
+        return Path(document.name).stem if document.path else "mesh"
 
     def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
         """Wait until `over()` is true.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
+from PySide6.QtCore import QSize, Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QAccessible, QAccessibleEvent, QDesktopServices, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
@@ -104,6 +105,16 @@ class MessageBar(QFrame):
     def show_result(self, title: str, text: str, choices: Choices, timeout_ms: int = 12_000) -> None:
         """Show a result for `timeout_ms` milliseconds with a button for each choice, as `show_warning`."""
         self._add(_Message("info", title, text, choices, timeout_ms))
+
+    def show_written(self, text: str, path: Path) -> None:
+        """Show that a file or a folder was written, with buttons that open it and its folder."""
+        folder = (tr("Show folder"), lambda: self._open(path if path.is_dir() else path.parent))
+        file = (tr("Open"), lambda: self._open(path))
+        self.show_result(text, "", (folder,) if path.is_dir() else (file, folder))
+
+    def _open(self, path: Path) -> None:
+        if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path.absolute()))):
+            self.show_error(tr("{name} was not opened", name=path.name), tr("The desktop has no program for it."))
 
     def show_card(self, title: str, text: str, choices: Choices, timeout_ms: int) -> None:
         """Show a result as `show_result`, at most until the first action of the user."""

@@ -106,6 +106,7 @@ RANKED = [
     ("as mesh", ["Save mesh as…", "Undo"]),
     ("method", ["Mend", "Smart Laplacian", "Run or pause"]),
     ("  UNDO ", ["Undo", "Reset", "Redo"]),
+    ("untangle", ["Mend", "Recommended smoothing"]),
     ("nonsense", []),
 ]
 

@@ -161,7 +161,7 @@ def test_the_state_of_a_feature_is_in_sessions_and_is_exported(
     _choose_and_write(window, 3, "thin")
     _choose_and_write(window, 5, "at the weld")
     session = tmp_path / "work.hexmend"
-    assert window.features["session"].save_and_wait(session)
+    assert window.features["save"].save_and_wait(session)
     open_and_wait(qtbot, window, mesh_file)
     window.refresh()
     assert window.features["notes"].notes == {}

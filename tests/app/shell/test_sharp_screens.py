@@ -8,10 +8,11 @@ from tests.programs import run_python
 
 _SCALED = """
 import sys
+from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QPointF, QSettings
 from PySide6.QtTest import QTest
-from tests.app.driving import LEFT
+from tests.app.driving import LEFT, write_picture
 from hexmend import gallery, io
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
@@ -50,7 +51,7 @@ for middle in middles[np.argsort(middles @ towards)[-40:]]:
     corners = mesh.points[mesh.hexes[window.session.selection.hex]]
     seen += bool((corners.min(axis=0) - 1e-9 <= middle).all() and (middle <= corners.max(axis=0) + 1e-9).all())
 assert seen == 40, seen
-assert window.features["export"].picture(sys.argv[1], (640, 400))
+assert write_picture(window, Path(sys.argv[1]), (640, 400))
 window.close()
 """
 

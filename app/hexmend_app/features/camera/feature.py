@@ -202,7 +202,7 @@ class FeatureCamera(Feature):
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
         success = tr("Camera saved as “{name}”; apply it with View > Camera > Saved cameras.", name=name)
-        self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
+        self.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
 
     def go(self, name: str) -> None:
         """Apply a saved camera."""

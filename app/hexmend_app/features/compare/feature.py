@@ -216,17 +216,13 @@ class FeatureCompare(Feature):
         """Ask for the file of the table, and write it."""
         kinds = tr("Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)")
         name = f"{self.host.default_file_stem}-comparison.csv"
-        path = ask_to_save(self.host.dialog_parent, tr("Save table as"), name, kinds)
-        if path:
+        if path := ask_to_save(self.host.dialog_parent, tr("Save table as"), name, kinds):
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
-        return self.host.try_and_report(
-            tr("Table not saved"),
-            lambda: write_comparison(Path(path), self._comparison.to_data().record()),
-            tr("Table of {count} saved to {path}", count=counted(len(self._comparison.results), "method"), path=path),
-        )
+        subject = tr("Table of {count}", count=counted(len(self._comparison.results), "method"))
+        return self.write_file(subject, path, lambda at: write_comparison(at, self._comparison.to_data().record()))
 
 
 def _key(record: RunRecord) -> str:

@@ -115,11 +115,7 @@ class FeatureConvergence(Feature):
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
-        return self.host.try_and_report(
-            tr("Charts not saved"),
-            lambda: self._write(Path(path), style or ChartStyle()),
-            tr("Convergence saved to {path}", path=path),
-        )
+        return self.write_file(tr("Convergence"), path, lambda at: self._write(at, style or ChartStyle()))
 
     def _write(self, path: Path, style: ChartStyle) -> None:
         charts = self._described()

@@ -178,18 +178,12 @@ class FeatureExport(Feature):
 
     # Pictures
 
-    def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
-        """Write the view as a picture of `size` pixels; return True if it was written."""
-        page = Page(pixels=size, background="transparent" if transparent else "white")
-        return self.write_picture(Path(path), self.canvas.scene(page, self.session.saved_cameras.all))
-
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a picture of a scene; return True if it was written."""
         width, height = scene.page.size
-        return self.host.try_and_report(
-            tr("Picture not saved"),
-            lambda: self.canvas.draw_page(scene).write(path, self._metadata(path, scene)),
-            tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
+        subject = tr("Picture of {width} × {height} pixels", width=width, height=height)
+        return self.write_file(
+            subject, path, lambda at: self.canvas.draw_page(scene).write(at, self._metadata(at, scene))
         )
 
     def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
@@ -277,7 +271,8 @@ class FeatureExport(Feature):
             return
         if picture is None:
             self.cancel()
-            self.host.messages.show_info(tr("{subject} saved to {path}", subject=self._subject, path=self._path))
+            text = tr("{subject} saved to {path}", subject=self._subject, path=self._path)
+            self.host.messages.show_written(text, self._path)
         else:
             self._drawn += 1
             self._show_progress()

@@ -230,14 +230,13 @@ class FeatureHexInspector(Feature):
     def ask(self) -> None:
         """Ask for a file and write the list of the worst hexes to it."""
         name = f"{self.host.default_file_stem}-worst.csv"
-        path = ask_to_save(self.host.dialog_parent, tr("Save list as"), name, tr("Table (*.csv)"))
-        if path:
+        if path := ask_to_save(self.host.dialog_parent, tr("Save list as"), name, tr("Table (*.csv)")):
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
         """Write the list of the worst hexes as CSV; return True if it was written."""
-        return self.host.try_and_report(
-            tr("List not saved"),
-            lambda: write_worst(path, self._document.now.mesh, self.worst_list.chosen_metric),
-            tr("{count} saved to {path}", count=counted(len(self.worst_list.hexes), "hex"), path=path),
+        subject, metric = (
+            tr("List of {count}", count=counted(len(self.worst_list.hexes), "hex")),
+            self.worst_list.chosen_metric,
         )
+        return self.write_file(subject, path, lambda at: write_worst(at, self._document.now.mesh, metric))

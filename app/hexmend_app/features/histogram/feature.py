@@ -174,11 +174,7 @@ class FeatureHistogram(Feature):
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
-        return self.host.try_and_report(
-            tr("Histogram not saved"),
-            lambda: self._write(Path(path), style or ChartStyle()),
-            tr("Histogram saved to {path}", path=path),
-        )
+        return self.write_file(tr("Histogram"), path, lambda at: self._write(at, style or ChartStyle()))
 
     def _write(self, path: Path, style: ChartStyle) -> None:
         if suffix_for(path, "a histogram", (*FIGURE_SUFFIXES, ".csv")) == ".csv":

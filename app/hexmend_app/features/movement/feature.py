@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
@@ -127,8 +128,9 @@ class MovementPanel(QWidget):
 
     def _on_changed(self) -> None:
         if not self.form.problems():
-            self._traces = self.form.table(self._traces)
-            self.traces_changed.emit(self._traces)
+            table: Any = self.form.table(self._traces)
+            self._traces = table
+            self.traces_changed.emit(table)
 
 
 def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:

@@ -16,11 +16,12 @@ from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.open.welcome import RecentMenu, Welcome, card
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.resources import demo_mesh
+from hexmend_app.state.mesh.mesh_place import mesh_place
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture
 from hexmend_app.state.settings.settings import RecentFiles
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
+from hexmend_app.widgets.dialogs.questions import ask_folder, ask_mesh, remember_folder
 
 #: Milliseconds for which the card of a mesh without findings is shown.
 _CARD_MS = 10_000
@@ -48,6 +49,7 @@ class FeatureOpen(Feature):
         opener.restored.connect(self._on_restored)
         opener.mesh_missing.connect(self._on_mesh_missing)
         opener.ended.connect(self._on_ended)
+        self.session.saver.ended.connect(lambda saving: self.recent.add(mesh_place(saving.path)))
         self._carded: tuple[Mesh | None, str] = (None, "")  # mesh and title of the card that may be extended
         self.session.mesh_checker.found.connect(self._on_found)
         opener.cancelled.connect(self._on_cancelled)
@@ -68,6 +70,14 @@ class FeatureOpen(Feature):
             needs_mesh=False,
             handle=self.ask,
             submenu=self._menu,
+        )
+        yield Action(
+            id="open_case",
+            text=tr("Open &case folder…"),
+            menu="File",
+            help=tr("Open an OpenFOAM case by its folder."),
+            needs_mesh=False,
+            handle=self.ask_case,
         )
         yield Action(
             id="open_demo",
@@ -93,8 +103,12 @@ class FeatureOpen(Feature):
 
     def ask(self) -> None:
         """Show the dialog for a mesh file and open the file."""
-        path = ask_mesh(self.host.dialog_parent)
-        if path:
+        if path := ask_mesh(self.host.dialog_parent):
+            self.open(path)
+
+    def ask_case(self) -> None:
+        """Show the dialog for the folder of an OpenFOAM case and open it."""
+        if path := ask_folder(self.host.dialog_parent, tr("Open OpenFOAM case")):
             self.open(path)
 
     def open_demo(self) -> None:
@@ -130,8 +144,8 @@ class FeatureOpen(Feature):
         else:
             self._show_card()
         if path.resolve() != demo_mesh().resolve():
-            remember_folder(path)
-            self.recent.add(path)
+            remember_folder(mesh_place(path))
+            self.recent.add(mesh_place(path))
 
     def _show_card(self) -> None:
         """Show what was opened, until the first action if something was changed or is wrong with it."""
@@ -173,16 +187,16 @@ class FeatureOpen(Feature):
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")
+        name, note = mesh_place(path).name, self._open_mesh_note()
         self.host.messages.show_info(
-            tr("Opening {name} was cancelled.{open_mesh_note}", name=path.name, open_mesh_note=self._open_mesh_note())
+            tr("Opening {name} was cancelled.{open_mesh_note}", name=name, open_mesh_note=note)
         )
 
-    def _on_failed(self, path: Path, error: Exception) -> None:
+    def _on_failed(self, path: Path, error: BaseException) -> None:
         self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self.host.messages.show_error(
-            tr("{name} cannot be opened", name=path.name), f"{detail.strip()}{self._open_mesh_note()}"
-        )
+        title = tr("{name} cannot be opened", name=mesh_place(path).name)
+        self.host.messages.show_error(title, f"{detail.strip()}{self._open_mesh_note()}")
 
     def _open_mesh_note(self) -> str:
         return tr(" {name} stays open.", name=self._document.name) if self._document.is_open else ""
@@ -205,7 +219,7 @@ def stage_text(progress: LoadProgress) -> str:
     >>> stage_text(LoadProgress(LoadStage.READING, file.path, file=file))
     'Reading five.vtu: 40%, 3 s left…'
     """
-    name = progress.path.name
+    name = mesh_place(progress.path).name
     if progress.file is not None and progress.file.share:
         return tr("Reading {name}: {done}…", name=name, done=progress.file.phrase)
     return {

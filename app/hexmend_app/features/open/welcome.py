@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QPushButton, QVBoxLayout, QWidget
@@ -23,10 +24,11 @@ _SOUND = 0.2
 _MAX_LETTERS = 60
 
 
-def elide(text: str, widget: QWidget) -> str:
+def entry_text(path: Path, widget: QWidget) -> str:
     """Return the name and folder of a file, elided in the middle if they are long, in the font of a widget."""
-    metrics = widget.fontMetrics()
-    return metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, _MAX_LETTERS * metrics.averageCharWidth())
+    metrics, text = widget.fontMetrics(), f"{path.name}  ({short_folder(path)})"
+    width = _MAX_LETTERS * metrics.averageCharWidth()
+    return metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, width).replace("&", "&&")
 
 
 class RecentMenu(QMenu):
@@ -61,8 +63,8 @@ class RecentMenu(QMenu):
         files = self._recent.files()
         for number, path in enumerate(files, start=1):
             exists = path.exists()
-            name = elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&")
-            action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else tr(": not found")))
+            name = f"&{number % 10}  {entry_text(path, self)}"
+            action = self.addAction(name if exists else name + tr(": not found"))
             action.setEnabled(exists)
             action.setToolTip(str(path) if exists else tr("{path} was moved, renamed or deleted.", path=path))
             action.setStatusTip(tr("Open {path}.", path=path))
@@ -113,7 +115,7 @@ class Welcome(QWidget):
         clear(self._links)
         for path in self._recent.files():
             if path.exists():
-                link = QPushButton(elide(f"{path.name}  ({short_folder(path)})", self).replace("&", "&&"))
+                link = QPushButton(entry_text(path, self))
                 link.setFlat(True)
                 link.setCursor(Qt.CursorShape.PointingHandCursor)
                 set_help(link, tr("Open {name}", name=path.name), escape(str(path)))

@@ -93,7 +93,7 @@ class FeatureOutcome(Feature):
                 *([] if record.better is None else [better]),
                 (tr("Compare"), partial(self._compare, record)),
                 (tr("Undo"), partial(self._do, "undo", record)),
-                (tr("Save…"), partial(self._do, "save", record)),
+                (tr("Save"), partial(self._do, "save", record)),
             )
             self.host.messages.show_result(title, text, choices if record.result else ())
 

@@ -35,7 +35,7 @@ class FeaturePyvistaWindow(Feature):
             text=tr("Open in PyVista window"),
             menu="View",
             help=tr("Show the mesh as it is coloured and cut now in a window of PyVista, with its widgets."),
-            handle=lambda: self.host.try_and_report(tr("No PyVista window"), self.open),
+            handle=lambda: self.try_and_report(tr("No PyVista window"), self.open),
             enabled=lambda: self.canvas is not None,
         )
 

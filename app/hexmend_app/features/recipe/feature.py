@@ -93,25 +93,19 @@ class FeatureRecipe(Feature):
 
     def ask_load(self) -> None:
         """Ask for a file and load its recipe."""
-        path = ask_to_open(self.host.dialog_parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)"))
-        if path:
+        if path := ask_to_open(self.host.dialog_parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)")):
             self.load(path)
 
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
-        if self.host.try_and_report(tr("Recipe not loaded"), lambda: self._draft.load(read_recipe(path))):
+        if self.try_and_report(tr("Recipe not loaded"), lambda: self._draft.load(read_recipe(path))):
             self.panel.select(0)
 
     def ask_save(self) -> None:
         """Ask for a file and save the recipe."""
-        path = ask_to_save(self.host.dialog_parent, tr("Save recipe as"), "recipe.toml", tr("Recipe (*.toml)"))
-        if path:
+        if path := ask_to_save(self.host.dialog_parent, tr("Save recipe as"), "recipe.toml", tr("Recipe (*.toml)")):
             self.save(path)
 
     def save(self, path: str | Path) -> None:
         """Save the recipe, or show the error."""
-        self.host.try_and_report(
-            tr("Recipe not saved"),
-            lambda: write_recipe(Path(path), self._draft.recipe),
-            tr("Recipe saved to {path}", path=path),
-        )
+        self.write_file(tr("Recipe"), path, lambda at: write_recipe(at, self._draft.recipe))

@@ -92,17 +92,12 @@ class FeatureReproduce(Feature):
     def ask(self) -> None:
         """Ask for a path and save the script."""
         name = f"{self.host.default_file_stem}.py"
-        path = ask_to_save(self.host.dialog_parent, tr("Save script as"), name, tr("Python script (*.py)"))
-        if path:
+        if path := ask_to_save(self.host.dialog_parent, tr("Save script as"), name, tr("Python script (*.py)")):
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
         """Write the script; return True if it was written."""
-        return self.host.try_and_report(
-            tr("Script not saved"),
-            lambda: write_text(Path(path), self.text),
-            tr("Script saved to {path}", path=path),
-        )
+        return self.write_file(tr("Script"), path, lambda at: write_text(at, self.text))
 
     def close(self) -> None:
         """Drop the command that runs."""

@@ -14,6 +14,7 @@ from hexmend.io.storage.file_progress import FileProgress
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import MeasuredMesh
+from hexmend_app.state.mesh.mesh_place import mesh_place
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.mesh_saver import SaveTask, original_for
 from hexmend_app.translation import tr
@@ -25,6 +26,7 @@ class FeatureSave(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
+        self._anew = False  # the file chosen last is written anew, not by replacing its coordinates
         saver = self.session.saver
         saver.began.connect(self._on_began)
         saver.progressed.connect(self._on_progressed)
@@ -35,13 +37,23 @@ class FeatureSave(Feature):
         """Yield the actions that save the mesh."""
         yield Action(
             id="save",
-            text=tr("&Save mesh as…"),
+            text=tr("&Save"),
             menu="File",
             section=1,
             keys="Ctrl+S",
             icon="content-save-outline",
-            help=tr("Save the displayed mesh to a file."),
+            help=tr("Save the displayed mesh, or the session, to the file chosen last; the first time, choose one."),
             tool=tr("Save"),
+            handle=self.save,
+            enabled=self._savable,
+        )
+        yield Action(
+            id="save_as",
+            text=tr("Save mesh &as…"),
+            menu="File",
+            section=1,
+            keys="Ctrl+Shift+S",
+            help=tr("Save the displayed mesh to another file."),
             handle=self.ask_mesh,
             enabled=lambda: self.session.run.phase is not Phase.RUNNING,
         )
@@ -68,7 +80,7 @@ class FeatureSave(Feature):
         if answer is Answer.SAVE:
             session.run.stop()
             stopping = tr("The run stops after this iteration.")
-            return self.host.wait_until(stopping, lambda: not session.run.busy) and self._ask_before_leaving()
+            return self.host.wait_until(stopping, lambda: not session.run.busy) and self._save_before_leaving()
         return answer is Answer.DISCARD
 
     @property
@@ -87,11 +99,33 @@ class FeatureSave(Feature):
         source, stem = self.session.document.path, f"{self.host.default_file_stem}-{purpose}"
         return ask_mesh_target(self.host.dialog_parent, title, stem, source.suffix if source is not None else ".vtu")
 
+    def _savable(self) -> bool:
+        target, session = self.session.document.target, self.session
+        if target is None or target.suffix.lower() != SUFFIX:
+            return session.run.phase is not Phase.RUNNING
+        return session.savable
+
+    def save(self) -> None:
+        """Save to the file chosen last, in the background, or ask for one."""
+        target = self.session.document.target
+        if target is None:
+            self.ask_mesh()
+        else:
+            self.session.commands.save_in_background(target, self._anew)
+
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
         path = self._ask_path(tr("Save mesh as"), "smoothed")
         if path and (rewrite := self._ask_rewrite(Path(path))) is not None:
+            self._anew = rewrite
             self.session.commands.save_in_background(path, rewrite)
+
+    def save_and_wait(self, path: str | Path) -> bool:
+        """Save the mesh, or the session if the path has its suffix, and wait; return True if it was written."""
+        rewrite = self._anew and path == self.session.document.target
+        saving = self.session.commands.save_in_background(path, rewrite)
+        completed = self.host.wait_until(f"Saving {saving.path.name}…", lambda: saving.over)
+        return completed and saving.error is None
 
     def ask_visible(self) -> None:
         """Ask for a path and save the hexes that the view shows."""
@@ -114,20 +148,22 @@ class FeatureSave(Feature):
         return drawn and self.session.run.phase is not Phase.RUNNING
 
     def _ask_rewrite(self, path: Path) -> bool | None:
-        """Ask whether a file is written anew, if its coordinates could be replaced instead; None if cancelled."""
+        """Ask whether a file that exists is written anew, if its coordinates could be replaced; None if cancelled."""
         document = self.session.document
         try:
             original = original_for(path, document.originals)
             lost = unsupported_data(path, document.now.mesh)
         except FileError:  # for a folder there is no choice; saving reports an unknown suffix
             return False
-        return original is not None and ask_rewrite(self.host.dialog_parent, path, original.path, lost)
+        asks = original is not None and mesh_place(path).exists()
+        return asks and ask_rewrite(self.host.dialog_parent, path, original.path, lost)
 
-    def _ask_before_leaving(self) -> bool:
-        """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
-        if self._in_session:
+    def _save_before_leaving(self) -> bool:
+        """Save to the file chosen last, or ask for one, and wait; return True if it was saved."""
+        path: str | Path | None = self.session.document.target
+        if path is None and self._in_session:
             path = ask_session(self.host.dialog_parent, self.host.default_file_stem)
-        else:
+        elif path is None:
             path = self._ask_path(tr("Save mesh as"), "smoothed")
         return bool(path) and self.save_and_wait(path)
 
@@ -140,9 +176,13 @@ class FeatureSave(Feature):
 
     def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
-        self.host.messages.show_info(
-            self._saved_words(saving) if saving.data is None else tr("Session saved to {path}", path=saving.path)
-        )
+        place = mesh_place(saving.path)
+        words = tr("Saved to {path}", path=place)
+        if saving.data is not None:
+            words = tr("Session saved to {path}", path=place)
+        elif saving.written is not None and saving.written.replaced:
+            words = tr("Coordinates replaced in {path}; everything else is unchanged", path=place)
+        self.host.messages.show_written(words, place)
         if saving.written is not None:
             for note in saving.written.notes:
                 self.host.messages.show_warning(tr("Saved with a note"), note)
@@ -153,12 +193,6 @@ class FeatureSave(Feature):
                 count=", ".join(saving.omitted),
             )
             self.host.messages.show_warning(tr("Some data was not saved"), remedy)
-
-    def _saved_words(self, saving: SaveTask) -> str:
-        """Tell whether the file is written anew, or keeps all but its coordinates."""
-        if saving.written is None or not saving.written.replaced:
-            return tr("Saved to {path}", path=saving.path)
-        return tr("Coordinates replaced in {path}; everything else is unchanged", path=saving.path)
 
     def _on_failed(self, saving: SaveTask) -> None:
         self.host.busy.done("save")

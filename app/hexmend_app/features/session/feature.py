@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from PySide6.QtCore import Qt
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.recovery import RecoveredSession, Recovery
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_session
@@ -38,11 +37,11 @@ class FeatureSession(Feature):
             text=tr("Save sess&ion as…"),
             menu="File",
             section=1,
-            keys="Ctrl+Shift+S",
+            keys="Ctrl+Alt+S",
             icon="content-save-all-outline",
             help=tr("Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later."),
             handle=self.ask,
-            enabled=self._savable,
+            enabled=lambda: self.session.savable,
         )
         yield Action(
             id="recover",
@@ -104,11 +103,6 @@ class FeatureSession(Feature):
                 tr("Autosave failed"),
                 tr("{error} Save the session to another disk or folder.", error=error),
             )
-
-    def _savable(self) -> bool:
-        smoothing = self.session.run
-        reading = self.session.opener.busy or self.session.time_reader.busy
-        return not reading and (not smoothing.busy or smoothing.phase is Phase.PAUSED)
 
 
 def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:

@@ -14,6 +14,7 @@ from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 from hexmend.run.recipe import Recipe
+from hexmend_app.state.mesh.mesh_place import mesh_place
 
 #: What the user adds to a mesh, and its iterations have too: pins, tags, marked curves, surface to slide on.
 OWN_PARTS = ("pinned", "hex_sets", "cells", "target")
@@ -141,6 +142,8 @@ class Document(QObject):
     ----------
     path : Path or None
         File of the mesh.
+    target : Path or None
+        File that was chosen for saving; None as long as none was.
     now : MeasuredMesh or None
         The state that is shown; None if no mesh is open.
     journal : mapping of MeasuredMesh to Command
@@ -154,6 +157,7 @@ class Document(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.path: Path | None = None
+        self.target: Path | None = None
         self.now: MeasuredMesh | None = None
         self._changes: list[Change] = []
         self._at = 0
@@ -181,8 +185,8 @@ class Document(QObject):
 
     @property
     def name(self) -> str:
-        """Name of the mesh for titles."""
-        return self.path.name if self.path is not None else (self.now.mesh.name if self.now else "")
+        """Name of the mesh for titles; of an OpenFOAM case, that of the case."""
+        return mesh_place(self.path).name if self.path is not None else (self.now.mesh.name if self.now else "")
 
     @property
     def modified(self) -> bool:
@@ -192,7 +196,7 @@ class Document(QObject):
     def replace(self, state: MeasuredMesh, path: Path | None) -> None:
         """Open a mesh and discard the previous changes; runs slide nodes on its present boundary."""
         state = replace(state, mesh=state.mesh.keeping_surface())
-        self.path = path
+        self.path, self.target = path, None
         self.now = state
         self._changes = [Change("open", state)]
         self._at, self._saved = 0, state
@@ -303,7 +307,7 @@ class Document(QObject):
         state = self.now if state is None else state
         is_open = any(change.state.mesh.elements is state.mesh.elements for change in self._changes)
         if is_open:
-            self.path, self._saved = path, state
+            self.path, self.target, self._saved = path, path, state
             self._files.pop(path, None)
             self._files[path] = state.mesh
             self.changes_changed.emit()
@@ -325,7 +329,7 @@ class Document(QObject):
     def restore(self, data: DocumentData) -> None:
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
-        self.path, self._saved = None if data.path is None else Path(data.path), data.saved
+        self.path, self.target, self._saved = None if data.path is None else Path(data.path), None, data.saved
         self._files = {Path(one.path): one.mesh for one in data.files}
         self.journal.update(data.journal)
         self.mesh_replaced.emit()

@@ -21,7 +21,7 @@ from hexmend_app.state.node_step import explain
 from hexmend_app.state.run.breakpoints import Breakpoints
 from hexmend_app.state.run.comparison import Comparison
 from hexmend_app.state.run.node_sweep import NodeSweep
-from hexmend_app.state.run.run_controller import RunController
+from hexmend_app.state.run.run_controller import Phase, RunController
 from hexmend_app.state.run.run_setup import RecipeDraft, RunSetup
 from hexmend_app.state.run.timeline import Timeline
 from hexmend_app.state.session.commands import Commands
@@ -156,6 +156,12 @@ class Session(QObject):
         """True if the mesh can be edited: no task that changes it is active, and no file is being read."""
         changing = (self.run, self.opener, self.repairer, self.padder)
         return self.document.is_open and not any(part.busy for part in changing)
+
+    @property
+    def savable(self) -> bool:
+        """True if the session can be saved: nothing is being read, and no run is active, unless it is paused."""
+        reading = self.opener.busy or self.time_reader.busy
+        return not reading and (not self.run.busy or self.run.phase is Phase.PAUSED)
 
     @property
     def modified(self) -> bool:

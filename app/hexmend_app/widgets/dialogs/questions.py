@@ -60,6 +60,11 @@ def ask_to_open(parent: QWidget, title: str, kinds: str) -> str:
     return path
 
 
+def ask_folder(parent: QWidget, title: str) -> str:
+    """Ask for a folder to read; "" if cancelled."""
+    return QFileDialog.getExistingDirectory(parent, title, str(folder()))
+
+
 def ask_to_save(parent: QWidget, title: str, name: str, kinds: str, kind: str = "") -> str:
     """Ask for a file to write, with the default `name` and `kind`; "" if cancelled. See `ask_to_open` for the kinds."""
     entered, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, kind)

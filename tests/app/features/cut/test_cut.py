@@ -26,6 +26,7 @@ from tests.app.driving import (
     seen_at,
     smooth,
     tick,
+    write_picture,
 )
 from tests.core.grids import grid, scrambled
 
@@ -185,8 +186,8 @@ def moved(window, qtbot, tmp_path):
 
 @pytest.mark.slow
 def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_path):
-    assert window.features["export"].picture(tmp_path / "p.png", (200, 150))
-    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+    assert write_picture(window, tmp_path / "p.png", (200, 150))
+    assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     for name in ("p.png", "work.hexmend"):
         open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
         window.session.view.set_cut(CUT)

@@ -24,7 +24,7 @@ from hexmend_app.state.settings.settings import MAX_RECENT_FILES
 from hexmend_app.state.tasks import file_watcher, mesh_opener
 from hexmend_app.state.tasks.task import running
 from hexmend_app.state.view.side_views import Wipe
-from tests.app.driving import LEFT, button, key, named, open_and_wait, press, smooth
+from tests.app.driving import LEFT, button, key, named, open_and_wait, press, smooth, write_picture
 from tests.app.invalid_hexes import INSIDE, THREE
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import grid, scrambled
@@ -117,12 +117,16 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
 def test_a_dropped_folder_of_a_case_is_opened_and_saved(window, qtbot, tmp_path):
     mesh = gallery.make("five-side", size=500)
     io.write(tmp_path / "case" / "case.foam", mesh)
-    drop(window, qtbot, tmp_path / "case")
-    assert window.windowTitle().startswith("case")
+    drop(window, qtbot, tmp_path / "case" / "constant" / "polyMesh")
+    assert window.windowTitle().startswith("case[*] ")
+    assert window.features["open"].recent.files()[0] == tmp_path / "case"
     (tmp_path / "case/system").mkdir()
     (tmp_path / "copy").mkdir()
     with qtbot.waitSignal(window.session.saver.ended):
         window.session.commands.save_in_background(tmp_path / "copy" / "copy.foam")
+    window.refresh()
+    assert window.windowTitle().startswith("copy[*] ")
+    assert window.features["open"].recent.files()[0] == tmp_path / "copy"
     assert (tmp_path / "copy/system").is_dir()
     assert io.read(tmp_path / "copy").n_hexes == mesh.n_hexes
 
@@ -294,7 +298,7 @@ def test_other_meshes_are_shown_next_to_the_first(window, qtbot, files, tmp_path
         np.testing.assert_array_equal(view.state.mesh.points, MESHES[view.name].points)
     expected = "one.vtu is shown with the camera and appearance of p.png. “two” and “three” are shown next to it."
     assert message(window)[1] == expected
-    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")  # all have the hexes of the first
+    assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")  # all have the hexes of the first
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     assert [view.name for view in window.session.side_views.all] == ["two", "three"]
 
@@ -319,7 +323,7 @@ def test_results_that_no_file_stores_are_reported(window, qtbot, files, tmp_path
     session.side_views.show("a result", session.document.now)
     smooth(qtbot, session)
     window.refresh()
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 150))
+    assert write_picture(window, tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert [view.name for view in session.side_views.all] == ["before"]
     np.testing.assert_array_equal(session.side_views.all[0].state.mesh.points, MESHES["one"].points)
@@ -340,7 +344,7 @@ def test_results_stored_in_a_session_are_restored(window, qtbot, files, tmp_path
     now, result = session.document.now.mesh.points, session.side_views.all[0].state.mesh.points
     assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     window.refresh()
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 150))
+    assert write_picture(window, tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, files["two"])
     open_and_wait(qtbot, window, tmp_path / "p.png")
     np.testing.assert_array_equal(session.document.now.mesh.points, now)
@@ -418,7 +422,7 @@ def mesh(tmp_path):
 def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, pose = change_appearance(window, qtbot)
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
+    assert write_picture(window, tmp_path / "p.png", (300, 200))
     open_and_wait(qtbot, window, mesh)
     assert window.session.view.look != look
     open_and_wait(qtbot, window, tmp_path / "p.png")
@@ -427,7 +431,7 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     assert window.session.view.look == look
     assert window.canvas.pose == pose
     assert "mesh.vtu is shown with the camera and appearance of p.png." in messages(window)[-1]
-    assert window.features["export"].picture(tmp_path / "again.png", (300, 200))
+    assert write_picture(window, tmp_path / "again.png", (300, 200))
     first, second = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
     assert np.abs(first.astype(int) - second).mean() < 0.2
 
@@ -437,7 +441,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     open_and_wait(qtbot, window, mesh)
     smooth(qtbot, window.session)
     window.refresh()
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
+    assert write_picture(window, tmp_path / "p.png", (300, 200))
     window.session.commands.reset()
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "in which it was smoothed by “Laplacian" in messages(window)[-1]
@@ -448,7 +452,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
 @pytest.mark.slow
 def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
+    assert write_picture(window, tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(4))
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "The mesh differs from p.png" in messages(window)[-1]
@@ -458,7 +462,7 @@ def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
 def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, monkeypatch):
     open_and_wait(qtbot, window, mesh)
     look, _ = change_appearance(window, qtbot)
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
+    assert write_picture(window, tmp_path / "p.png", (300, 200))
     (tmp_path / "elsewhere").mkdir()
     moved = mesh.rename(tmp_path / "elsewhere" / "renamed.vtu")
     before = window.session.document.now
@@ -478,7 +482,7 @@ def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qt
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(show={"hidden": frozenset({60})})
     window.refresh()
-    assert window.features["export"].picture(tmp_path / "p.png", (300, 200))
+    assert write_picture(window, tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(2))
     with qtbot.waitSignal(window.session.opener.failed):
         window.features["open"].open(tmp_path / "p.png")

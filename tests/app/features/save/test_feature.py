@@ -3,12 +3,13 @@
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QPushButton
 
 from benchmarks.window.windows import save_and_wait
 from hexmend import io
@@ -35,17 +36,45 @@ def test_saving_writes_the_displayed_mesh(window, qtbot, tmp_path):
     assert window.messages.messages()[-1][0] == "error"
 
 
+@pytest.fixture
+def chosen(monkeypatch):
+    """Answer of the dialog for a file to save to; its other arguments are recorded."""
+    answer = SimpleNamespace(path="", asked=[])
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: answer.asked.append(given) or (answer.path, ""))
+    return answer
+
+
 @pytest.mark.slow
-def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot, tmp_path, monkeypatch):
-    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+def test_a_session_is_saved_in_place_and_its_mesh_in_any_format(window, qtbot, tmp_path, chosen):
+    session = window.session
+    assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
-    offered = []
-    out = str(tmp_path / "out.vtk")
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: offered.append(given[3]) or (out, ""))
+    session.commands.pin(0, True)
+    with qtbot.waitSignal(session.saver.ended):
+        window.action("save").trigger()
+    assert not chosen.asked
+    assert not session.document.modified
+    chosen.path = str(tmp_path / "out.vtk")
+    with qtbot.waitSignal(session.saver.ended):
+        window.action("save_as").trigger()
+    assert all(f"(*{suffix})" in chosen.asked[0][3] for suffix in io.writable_suffixes())
+    np.testing.assert_array_equal(io.read(chosen.path).points, session.document.now.mesh.points)
+
+
+def test_the_file_chosen_first_is_saved_in_place_and_recent(window, qtbot, tmp_path, chosen):
+    chosen.path = str(tmp_path / "out.vtu")
+    for pinned in (False, True):
+        window.session.commands.pin(0, pinned)
+        with qtbot.waitSignal(window.session.saver.ended):
+            key(window, Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
+        assert len(chosen.asked) == 1
+        assert not window.session.document.modified
+    assert window.features["open"].recent.files()[0] == tmp_path / "out.vtu"
+    assert {"Open", "Show folder"} <= {one.text() for one in window.messages.findChildren(QPushButton)}
+    open_and_wait(qtbot, window, tmp_path / "out.vtu")
     with qtbot.waitSignal(window.session.saver.ended):
         window.action("save").trigger()
-    assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
-    np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
+    assert len(chosen.asked) == 2  # a file that was opened is not replaced unasked
 
 
 @pytest.fixture
@@ -62,33 +91,37 @@ def deck(qtbot, hosted, tmp_path):
 
 
 @pytest.mark.parametrize(("button", "kept"), [("Replace coordinates", True), ("Rewrite file", False), ("Cancel", None)])
-def test_saving_in_the_format_of_the_file_asks_whether_to_write_it_anew(deck, qtbot, monkeypatch, button, kept):
+def test_replacing_a_file_asks_once_whether_to_write_it_anew(deck, qtbot, monkeypatch, chosen, button, kept):
     feature, path = deck
-    out, said, proposed = path.with_name("out.inp"), [], []
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: proposed.append(given[2]) or (str(out), ""))
+    out, said = path.with_name("out.inp"), []
+    chosen.path = str(out)
+    out.write_text("another")
 
     def answer(box):
         said.append(box.informativeText())
         next(one for one in box.buttons() if one.text().replace("&", "") == button).click()
 
     monkeypatch.setattr(QMessageBox, "exec", answer)
-    feature.ask_mesh()
+    feature.save()
     qtbot.waitUntil(lambda: not feature.session.saver.busy)
-    assert proposed[0].endswith("mesh-smoothed.inp")
+    assert chosen.asked[0][2].endswith("mesh-smoothed.inp")
     assert "are lost" in said[0]
-    assert out.exists() is (kept is not None)
+    assert (out.read_text() == "another") is (kept is None)
     if kept is not None:
+        feature.save()
+        qtbot.waitUntil(lambda: not feature.session.saver.busy)
+        assert len(said) == 1
         assert ("a comment" in out.read_text()) is kept
 
 
-def test_saving_in_another_format_asks_nothing(deck, qtbot, monkeypatch):
+@pytest.mark.parametrize("name", ["out.vtu", "out.inp"])
+def test_a_new_file_is_written_unasked_and_keeps_what_it_can(deck, qtbot, monkeypatch, chosen, name):
     feature, path = deck
-    out = path.with_name("out.vtu")
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: (str(out), ""))
+    chosen.path = str(path.with_name(name))
     monkeypatch.setattr(QMessageBox, "exec", lambda box: pytest.fail(box.text()))
     feature.ask_mesh()
     qtbot.waitUntil(lambda: not feature.session.saver.busy)
-    assert out.exists()
+    assert (b"a comment" in path.with_name(name).read_bytes()) is name.endswith(".inp")
 
 
 @pytest.mark.slow
@@ -116,7 +149,7 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("style", [CutStyle.CRINKLE, CutStyle.SMOOTH])
-def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypatch, style):
+def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, chosen, style):
     mesh = window.session.document.now.mesh
     window.session.commands.tag("some", [3, 5, 8])
     centres = mesh.points[mesh.hexes].mean(axis=1)
@@ -124,11 +157,11 @@ def test_the_visible_hexes_are_saved_as_a_mesh(window, qtbot, tmp_path, monkeypa
     window.session.view.set_cut(Cut.at((1, 0, 0), tuple(middle.tolist()), style))
     window.session.view.dig(int(centres[:, 0].argmin()))
     window.refresh()
-    out, said = tmp_path / "out.vtu", []
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: said.append(given[2]) or (str(out), ""))
+    out = tmp_path / "out.vtu"
+    chosen.path = str(out)
     window.action("save_visible").trigger()
     qtbot.waitUntil(lambda: not window.session.saver.busy)
-    assert said[0].endswith("-visible.vtu")
+    assert chosen.asked[0][2].endswith("-visible.vtu")
     corners = mesh.points[mesh.hexes][:, :, 0]
     shown = centres[:, 0] <= middle[0] if style is CutStyle.CRINKLE else corners.min(axis=1) < middle[0]
     shown[centres[:, 0].argmin()] = False

@@ -23,7 +23,7 @@ def at_rest(window, qtbot):
 
 def saved(window, tmp_path):
     path = tmp_path / "work.hexmend"
-    assert window.features["session"].save_and_wait(path)
+    assert window.features["save"].save_and_wait(path)
     return path
 
 

@@ -56,7 +56,7 @@ def test_a_restored_session_can_be_continued(window, qtbot, path):
     """Undo, timeline, branches, breakpoints and runs work after restoring."""
     work(window, qtbot)
     session = window.session
-    window.features["session"].save_and_wait(path)
+    window.features["save"].save_and_wait(path)
     undone = []
     for _ in range(4):
         session.commands.undo()
@@ -83,7 +83,7 @@ def test_the_title_shows_the_session_and_unsaved_changes(window, qtbot, path):
     smooth(qtbot, window.session)
     window.refresh()
     assert window.isWindowModified()
-    for act in (window.features["session"].save_and_wait, lambda path: open_and_wait(qtbot, window, path)):
+    for act in (window.features["save"].save_and_wait, lambda path: open_and_wait(qtbot, window, path)):
         act(path)
         window.refresh()
         assert window.windowTitle().startswith("work.hexmend")
@@ -98,7 +98,7 @@ def test_a_displayed_iteration_is_not_a_change(window, qtbot, path):
     smooth(qtbot, window.session)
     session = window.session
     session.timeline.go(session.history.records[0], 1)
-    window.features["session"].save_and_wait(path)
+    window.features["save"].save_and_wait(path)
     assert session.document.previews
     assert not session.document.modified
     open_and_wait(qtbot, window, path)
@@ -110,7 +110,7 @@ def test_a_displayed_iteration_is_not_a_change(window, qtbot, path):
 
 @pytest.mark.slow
 def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, path, tmp_path, monkeypatch):
-    window.features["session"].save_and_wait(path)
+    window.features["save"].save_and_wait(path)
     smooth(qtbot, window.session)
     asked = []
     monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Save)
@@ -132,7 +132,7 @@ def test_a_paused_run_is_saved(window, qtbot, path):
     window.refresh()
     assert window.action("save_session").isEnabled()
     points = window.session.document.now.mesh.points
-    window.features["session"].save_and_wait(path)
+    window.features["save"].save_and_wait(path)
     end_run(window.session)
     open_and_wait(qtbot, window, path)
     np.testing.assert_array_equal(window.session.document.now.mesh.points, points)

@@ -63,7 +63,7 @@ def test_it_is_shown_as_a_ghost_until_it_is_removed(window, stl):
 @pytest.mark.slow
 def test_the_choice_is_undone_and_kept_in_sessions(window, qtbot, stl, tmp_path):
     window.features["target_surface"].choose(stl)
-    assert window.features["open"].save_and_wait(tmp_path / "ball.hexmend")
+    assert window.features["save"].save_and_wait(tmp_path / "ball.hexmend")
     window.session.commands.undo()
     assert target(window) is None
     window.session.commands.redo()
