@@ -106,7 +106,7 @@ def slide(now: Situation) -> Suggestion | None:
     which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
     text = (
         f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface; where "
-        "that is not enough, Mend moves nodes off it within surface_tolerance."
+        "that is not enough, Mend moves nodes off it within the surface tolerance."
     )
     return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
 

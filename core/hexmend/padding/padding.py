@@ -88,8 +88,8 @@ class Padding:
     def message(self) -> str:
         """The layer and what is left inverted, as sentences."""
         left, mean = self.after.inverted, self.thickness.mean()
-        layer = f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, {mean:.3g} thick in the mean"
-        words = [f"{layer}." if left else f"{layer} and {self.thickness.min():.3g} at least."]
+        layer = f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, of mean thickness {mean:.3g}"
+        words = [f"{layer}." if left else f"{layer} and least thickness {self.thickness.min():.3g}."]
         asked = self.asked_thickness
         if asked is not None and abs(mean - asked) > _THICKNESS_DIFFERENCE * asked:
             words.append(f"{asked:g} was requested, but the shape of the mesh leaves no space for it.")

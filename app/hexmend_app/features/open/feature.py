@@ -195,8 +195,9 @@ class FeatureOpen(Feature):
     def _on_failed(self, path: Path, error: BaseException) -> None:
         self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
+        detail = detail[:1].upper() + detail[1:].rstrip()
         title = tr("{name} cannot be opened", name=mesh_place(path).name)
-        self.host.messages.show_error(title, f"{detail.strip()}{self._open_mesh_note()}")
+        self.host.messages.show_error(title, detail + self._open_mesh_note())
 
     def _open_mesh_note(self) -> str:
         return tr(" {name} stays open.", name=self._document.name) if self._document.is_open else ""

@@ -24,7 +24,7 @@ class Mend(MendSettings):
 
     name = "mend"
     title = "Mend"
-    help = "Untangles as far as the fixed nodes allow, then finds the best shape that lowers no key figure."
+    help = "Untangles as far as the fixed nodes allow, then finds the best shape; no key figure ends below its start."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     iteration_limit = 5000
     bytes_per_hex = 1200

@@ -100,14 +100,14 @@ def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.n
     fixed = energy.ranks.least(float(quality.scaled_jacobian.min()))
     message = (
         f"The minimum scaled Jacobian of the corners that can be moved reached {max(top.jacobian, kept.jacobian):.4f}; "
-        f"it is kept at {kept.jacobian:.4f} at least, and the least q(H) at {kept.quality:.4f}."
+        f"the result has at least {kept.jacobian:.4f}, and a q(H) of at least {kept.quality:.4f}."
     )
     if 0 < fixed < kept.jacobian - 5e-5:
         message += f" A corner that cannot be moved has {fixed:.4f}."
     cost = f"{without - mean:.4f}"
     if not float(cost) > 0:
         return message
-    return f"{message} Both together cost {cost} of q mean, which would be {without:.4f} without."
+    return f"{message} This costs {cost} in mean q."
 
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:
