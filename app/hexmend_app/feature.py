@@ -23,6 +23,8 @@ from hexmend_app.state.session.state_part import StatePart as StatePart
 from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
+    from hexmend.run.recipe import Recipe
+    from hexmend.smoothers import Smoother
     from hexmend_app.canvas.canvas import Canvas
 
 #: Menus in order; a name after a slash is that of a submenu.
@@ -205,6 +207,16 @@ class Feature(QObject):
     def confirm_close(self) -> bool:
         """Return True if the open mesh may be closed; may ask the user."""
         return True
+
+    def memory_suffices(self, *works: Smoother | Recipe) -> bool:
+        """Return True if memory will suffice for methods on the current mesh, or the user starts them all the same."""
+        from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
+
+        shortage = self.session.commands.shortage(works)
+        if shortage is None:
+            return True
+        remedy = shortage.remedy(tr("isolate a region and pin the rest (Hex menu)"), titled=True)
+        return ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy)
 
     def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
         """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""

@@ -10,8 +10,7 @@ from typing import Any
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective, regressions
 from hexmend.report.comparison import LINES, write_comparison
-from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import METHODS
 from hexmend.study.compare import common_norm
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
@@ -174,16 +173,15 @@ class FeatureCompare(Feature):
 
     def run(self) -> None:
         """Run the selected methods; with invalid limits, show them."""
-        if (stage := self.session.run_setup.checked_stage()) is not None and self._runnable:
-            names = [name for name in METHODS if name in self.panel.model.ticks]
-            smoothers = [self.session.run_setup.smoother_of(name) for name in names]
-            self.session.commands.when_memory_suffices(smoothers, lambda: self._compare(smoothers, stage))
-
-    def _compare(self, smoothers: list[Smoother], stage: Stage) -> None:
-        self._close_results()
-        self.session.end_previews()
-        self._comparison.start(smoothers, stage.stop, self.session.run_setup.rules)
-        self.host.show_panel("compare")  # its key starts it from anywhere
+        setup, names = self.session.run_setup, [name for name in METHODS if name in self.panel.model.ticks]
+        if (stage := setup.checked_stage()) is None or not self._runnable:
+            return
+        smoothers = [setup.smoother_of(name) for name in names]
+        if self.memory_suffices(*smoothers):
+            self._close_results()
+            self.session.end_previews()
+            self._comparison.start(smoothers, stage.stop, setup.rules)
+            self.host.show_panel("compare")  # its key starts it from anywhere
 
     def _state_of(self, name: str) -> MeasuredMesh:
         if name == INITIAL:
@@ -222,7 +220,7 @@ class FeatureCompare(Feature):
     def save(self, path: str | Path) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
         subject = tr("Table of {count}", count=counted(len(self._comparison.results), "method"))
-        return self.write_file(subject, path, lambda at: write_comparison(at, self._comparison.to_data().record()))
+        return self.write_file(subject, path, lambda at: write_comparison(at, self._comparison.data.record()))
 
 
 def _key(record: RunRecord) -> str:

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from superqt.utils import QSignalThrottler
 
-from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.records import write_csv
-from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.chart_feature import ChartFeature
+from hexmend_app.feature import Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.convergence.curves import Curve, axis_title, described, run_start, table_rows
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.convergence import Convergence
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
 from hexmend_app.widgets.inputs.saved_values import saved_values
-
-_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Values of all runs (*.csv)"
 
 #: Milliseconds between two redraws during a run.
 _PERIOD = 100
 
 
-class FeatureConvergence(Feature):
+class FeatureConvergence(ChartFeature):
     """Plots the values of all runs and sends clicks in the charts to the timeline."""
+
+    chart_title, chart_subject, values_title = "Convergence", "the charts", "Values of all runs"
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -35,7 +33,6 @@ class FeatureConvergence(Feature):
         self._document, self._run = session.document, session.run
         timeline = self._timeline = session.timeline
         self._history = session.history
-        self._style = ChartStyle()  # of the last saved figure
         panel = self.panel = ConvergencePanel()
         self._throttler = QSignalThrottler(parent=panel)
         self._throttler.setTimeout(_PERIOD)
@@ -102,29 +99,12 @@ class FeatureConvergence(Feature):
 
     # Files
 
-    def ask(self) -> None:
-        """Ask for the style and the file of the charts, and write them."""
-        if chosen := answer(self.dialog()):
-            path, self._style = chosen
-            self.save(path, self._style)
+    def write_values(self, path: Path, names: Mapping[str, str]) -> None:
+        """Write the values of all runs as CSV."""
+        self._show()
+        write_csv(path, [row for curve in self.panel.curves for row in table_rows(curve, names)])
 
-    def dialog(self) -> ChartDialog:
-        """Return the dialog that saves the charts, with the style used last."""
-        chart, file_name = self._described(), f"{self.host.default_file_stem}-convergence.svg"
-        return ChartDialog(chart, tr("the charts"), file_name, tr(_KINDS), self._style, self.host.dialog_parent)
-
-    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
-        """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
-        return self.write_file(tr("Convergence"), path, lambda at: self._write(at, style or ChartStyle()))
-
-    def _write(self, path: Path, style: ChartStyle) -> None:
-        charts = self._described()
-        if suffix_for(path, "a chart", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
-            write_csv(path, [row for curve in self.panel.curves for row in table_rows(curve, style.names)])
-        else:
-            write_chart(path, charts.draw, style)
-
-    def _described(self) -> Convergence:
+    def described(self) -> Convergence:
         """Return the charts that are selected, for print."""
         self._show()
         curves, by_time, log = self.panel.curves, self.panel.by_time, self.panel.head.log.isChecked()

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import rows_by_kind
 from hexmend.quality import METRICS, measure
 from hexmend.report.documents import write_text
-from hexmend_app.feature import Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.chart_feature import ChartFeature
+from hexmend_app.feature import Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.picture.visibility import Show
-from hexmend_app.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend_app.report.distribution import Distribution
 from hexmend_app.report.histogram import Histogram
 from hexmend_app.scene.colour.colouring import Colouring
@@ -24,25 +23,23 @@ from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.view.side_views import Snapshot
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.chart_dialog import ChartDialog, answer
 from hexmend_app.widgets.inputs.saved_values import saved_values
 from hexmend_app.widgets.wording import noun_of, noun_of_cells
 
-_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
-
-class FeatureHistogram(Feature):
+class FeatureHistogram(ChartFeature):
     """Shows the values of a metric in the histogram, and hides the hexes outside of the range brushed there.
 
     The metric is that of the colours until the user selects another. It stays the same while a range is brushed, so
     that the remaining hexes can be coloured by other metrics.
     """
 
+    chart_title, chart_subject, values_title = "Histogram", "the histogram", "Counts"
+
     def __init__(self, host: Host):
         super().__init__(host)
         self._view = self.session.view
         self._document, self._snapshots = self.session.document, self.session.snapshots
-        self._style = ChartStyle()  # of the last export
         self._initial: Distribution | None = None
         self._current: Distribution | None = None
         #: Metric with kind of cells, points and distribution of the snapshots, by slot.
@@ -161,29 +158,12 @@ class FeatureHistogram(Feature):
 
     # Files
 
-    def ask(self) -> None:
-        """Show the export dialog and write the histogram."""
-        if path_and_style := answer(self.dialog()):
-            path, self._style = path_and_style
-            self.save(path, self._style)
+    def write_values(self, path: Path, names: Mapping[str, str]) -> None:
+        """Write the counts as CSV."""
+        self._count()
+        write_text(path, self.panel.shown.csv_text(names))
 
-    def dialog(self) -> ChartDialog:
-        """Return the export dialog, with the sizes and names of the last export."""
-        chart, proposed = self._described(), f"{self.host.default_file_stem}-histogram.svg"
-        return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
-
-    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
-        """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
-        return self.write_file(tr("Histogram"), path, lambda at: self._write(at, style or ChartStyle()))
-
-    def _write(self, path: Path, style: ChartStyle) -> None:
-        if suffix_for(path, "a histogram", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
-            self._count()
-            write_text(path, self.panel.shown.csv_text(style.names))
-        else:
-            write_chart(path, self._described().draw, style)
-
-    def _described(self) -> Histogram:
+    def described(self) -> Histogram:
         """Return the histogram of the panel, for print."""
         self._count()
         return self.panel.shown.describe(self._document.name, for_print=True)

@@ -88,7 +88,7 @@ class FeatureRecipe(Feature):
     def run(self) -> None:
         """Run the recipe on the displayed mesh."""
         recipe = self._draft.recipe
-        if recipe is not None and self.session.editable:
+        if recipe is not None and self.session.editable and self.memory_suffices(recipe):
             self.session.commands.run_recipe(recipe)
 
     def ask_load(self) -> None:

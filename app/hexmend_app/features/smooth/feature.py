@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from PySide6.QtGui import QGuiApplication
 
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, smooth_command
-from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, ButtonAppearance, Feature, Host, Panel, PanelPlace, StatePart
@@ -19,7 +18,6 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.state.settings import settings
 from hexmend_app.translation import tr
-from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
 from hexmend_app.widgets.inputs.saved_values import saved_values
 from hexmend_app.widgets.wording import figure
@@ -29,33 +27,23 @@ _SCALED_JACOBIAN = "scaled-jacobian"
 
 
 class RunState(NamedTuple):
-    """Text, icon and help of the button that runs and pauses, and which commands are possible."""
+    """Text, icon and help of the button that runs and pauses, and the ids of the commands that are possible."""
 
     text: str
     icon: str
     help: str
-    run: bool
-    step: bool
-    stop: bool
-    reset: bool
-    edit: bool
+    allows: tuple[str, ...] = ()
 
 
 _RUN = "Smooth the mesh with this method until a stopping criterion is met."
 
 STATES = {
-    "idle": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=False, edit=True),
-    "preparing": RunState(
-        "Preparing", "timer-sand", "Preparing the method.", run=False, step=False, stop=True, reset=False, edit=False
-    ),
-    "stopping": RunState(
-        "Stopping", "timer-sand", "Stopping the run.", run=False, step=False, stop=False, reset=False, edit=False
-    ),
-    "running": RunState(
-        "Pause", "pause", "Pause after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
-    ),
-    "paused": RunState("Resume", "play", "Continue the run.", run=True, step=True, stop=True, reset=True, edit=True),
-    "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
+    "idle": RunState("Run", "play", _RUN, ("run", "step", "edit")),
+    "preparing": RunState("Preparing", "timer-sand", "Preparing the method.", ("stop",)),
+    "stopping": RunState("Stopping", "timer-sand", "Stopping the run."),
+    "running": RunState("Pause", "pause", "Pause after this iteration.", ("run", "stop")),
+    "paused": RunState("Resume", "play", "Continue the run.", ("run", "step", "stop", "reset", "edit")),
+    "finished": RunState("Run", "play", _RUN, ("run", "step", "reset", "edit")),
 }
 
 
@@ -65,9 +53,7 @@ class FeatureSmooth(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        commands, smoothing = session.commands, session.run
-        self._smoothing = smoothing
-        commands.memory_short.connect(self._ask_for_memory)
+        smoothing = self._smoothing = session.run
         self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
         form = panel.breakpoint_form
@@ -86,7 +72,7 @@ class FeatureSmooth(Feature):
             icon="play",
             help=tr("Run the selected method; pause or resume a run."),
             handle=self.run_or_pause,
-            enabled=lambda: self._ready() and self._state().run,
+            enabled=lambda: self._ready() and self._allows("run"),
             appearance=self._run_face,
         )
         yield Action(
@@ -97,7 +83,7 @@ class FeatureSmooth(Feature):
             icon="skip-next",
             help=tr("Run the number of iterations set in the panel Smooth, then pause."),
             handle=self.step,
-            enabled=lambda: self._ready() and self._state().step,
+            enabled=lambda: self._ready() and self._allows("step"),
         )
         yield Action(
             id="stop",
@@ -107,7 +93,7 @@ class FeatureSmooth(Feature):
             icon="stop",
             help=tr("Stop the run after this iteration and keep its result."),
             handle=self._smoothing.stop,
-            enabled=lambda: self._state().stop,
+            enabled=lambda: self._allows("stop"),
         )
         yield Action(
             id="reset",
@@ -117,7 +103,7 @@ class FeatureSmooth(Feature):
             icon="restore",
             help=tr("Restore all node positions of the mesh as it was opened."),
             handle=self.session.commands.reset,
-            enabled=lambda: self._ready() and self._state().reset,
+            enabled=lambda: self._ready() and self._allows("reset"),
         )
         yield from self._option_actions()
 
@@ -172,7 +158,7 @@ class FeatureSmooth(Feature):
                 form.set_values(self._smoothing.breakpoints.values())
         if phase is not Phase.PAUSED:
             self._hit = None
-        editable = self._state().edit
+        editable = self._allows("edit")
         self.panel.set_editable(editable, editable and phase is not Phase.PAUSED)  # a run keeps its rules
         self._show_busy()
         self.panel.set_status(*self._status())
@@ -182,18 +168,20 @@ class FeatureSmooth(Feature):
         phase, setup = self._smoothing.phase, self.session.run_setup
         if phase is Phase.RUNNING:
             self._smoothing.pause()
-        elif self._state().run and (stage := setup.checked_stage()) is not None:
+        elif self._allows("run") and (stage := setup.checked_stage()) is not None:
             if phase is Phase.PAUSED:
                 self._change(stage)
                 self._smoothing.resume()
-            else:
+            elif self.memory_suffices(stage.smoother):
                 self.session.commands.run(stage)
 
     def step(self) -> None:
         """Run the number of iterations of a step, if the state of the run allows it."""
-        if self._state().step and (stage := self.session.run_setup.checked_stage()) is not None:
+        if self._allows("step") and (stage := self.session.run_setup.checked_stage()) is not None:
             if self._smoothing.phase is Phase.PAUSED:
                 self._change(stage)
+            elif not self.memory_suffices(stage.smoother):
+                return
             self.session.commands.step(stage, self.panel.steps.value())
 
     def _change(self, stage: Stage) -> None:
@@ -207,6 +195,9 @@ class FeatureSmooth(Feature):
         document, phase = self.session.document, self._smoothing.phase
         moved = document.is_open and document.now is not document.start
         return STATES["finished" if phase is Phase.IDLE and moved else phase.value]
+
+    def _allows(self, command: str) -> bool:
+        return command in self._state().allows
 
     def _run_face(self) -> ButtonAppearance:
         state = self._state()
@@ -288,13 +279,6 @@ class FeatureSmooth(Feature):
         command = smooth_command(stage, str(path), str(output), RunOptions(self.session.run_setup.rules))
         QGuiApplication.clipboard().setText(command)
         self.host.messages.show_info(tr("Copied: {command}", command=command))
-
-    def _ask_for_memory(self, shortage: Shortage, start: Callable[[], object]) -> None:
-        """Ask whether to start a run for which memory will probably not suffice."""
-        smaller_region = tr("isolate a region and pin the rest (Hex menu)")
-        remedy = shortage.remedy(smaller_region, titled=True)
-        if ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy):
-            start()
 
     def _on_failed(self, error: Exception) -> None:
         record = self.session.run.record

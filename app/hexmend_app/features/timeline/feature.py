@@ -129,7 +129,8 @@ class FeatureTimeline(Feature):
         )
 
     def _branch(self) -> None:
-        if (stage := self.session.run_setup.checked_stage()) is not None:
+        stage = self.session.run_setup.checked_stage()
+        if stage is not None and self.memory_suffices(stage.smoother):
             self.session.commands.branch(stage)
 
     def _set_limit(self, megabytes: int) -> None:

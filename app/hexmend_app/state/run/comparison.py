@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from time import monotonic
 from typing import Any
@@ -48,11 +48,11 @@ class MethodResult:
 class ComparisonData:
     """Data of a comparison in a session file: initial state, limits, number of methods requested, results, rules."""
 
-    initial: MeasuredMesh | None
-    stop: StoppingCriteria
-    asked: int
-    results: tuple[MethodResult, ...]
-    rules: MotionRules
+    initial: MeasuredMesh | None = None
+    stop: StoppingCriteria = field(default_factory=StoppingCriteria)
+    asked: int = 0
+    results: tuple[MethodResult, ...] = ()
+    rules: MotionRules = field(default_factory=MotionRules)
 
     def __post_init__(self) -> None:
         if self.results and self.initial is None:
@@ -133,12 +133,8 @@ class Comparison(QObject):
 
     Attributes
     ----------
-    initial : MeasuredMesh or None
-        State that the methods start from; None if nothing was compared.
-    results : tuple of MethodResult
-        Results of the finished methods.
-    stop : StoppingCriteria
-        Limits of each method in the last comparison.
+    data : ComparisonData
+        The last comparison, with the results of the finished methods.
     progress : ComparisonProgress or None
         Progress of the comparison; None if none is active.
     """
@@ -151,11 +147,18 @@ class Comparison(QObject):
         self._document = document
         self._task: Task | None = None
         self.progress: ComparisonProgress | None = None
-        self.stop, self._rules = StoppingCriteria(), MotionRules()
-        self._asked = 0
-        self.initial: MeasuredMesh | None = None
-        self.results: tuple[MethodResult, ...] = ()
-        document.mesh_replaced.connect(self._clear)
+        self.data = ComparisonData()
+        document.mesh_replaced.connect(lambda: self.restore(ComparisonData()))
+
+    @property
+    def initial(self) -> MeasuredMesh | None:
+        """State that the methods start from; None if nothing was compared."""
+        return self.data.initial
+
+    @property
+    def results(self) -> tuple[MethodResult, ...]:
+        """Results of the finished methods."""
+        return self.data.results
 
     @property
     def busy(self) -> bool:
@@ -170,7 +173,7 @@ class Comparison(QObject):
     @property
     def interrupted(self) -> bool:
         """True if the user ended the comparison before the last method had finished."""
-        return not self.busy and self.to_data().interrupted
+        return not self.busy and self.data.interrupted
 
     def start(self, smoothers: Sequence[Smoother], stop: StoppingCriteria, rules: MotionRules | None = None) -> None:
         """Run methods on the current mesh, one after another; the results of the previous comparison are discarded.
@@ -185,10 +188,9 @@ class Comparison(QObject):
         """
         if self.busy or not self._document.is_open or not smoothers:
             return
-        self.initial, self.results = self._document.now, ()
-        self.stop, self._asked, self._rules = stop, len(smoothers), rules or MotionRules()
+        self.data = ComparisonData(self._document.now, stop, len(smoothers), rules=rules or MotionRules())
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
-        work = partial(_run_all, self.initial, tuple(smoothers), stop, self._rules)
+        work = partial(_run_all, self.initial, tuple(smoothers), stop, self.data.rules)
         self._task = Task("comparison of methods", work, yields=True)
         self._task.reported.connect(self._take)
         self._task.ended.connect(self._finish)
@@ -210,21 +212,20 @@ class Comparison(QObject):
         row = next((result.row for result in self.results if result.state is state), None)
         if row is None or row.method not in METHODS:
             return None
-        stop = self.stop
+        stop = self.data.stop
         if row.outcome in (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key):
             stop = replace(stop, max_iterations=row.iterations, max_seconds=0.0)
         smoother = from_values(METHODS[row.method], row.parameters, owner=row.method)
-        return Recipe.of(Stage(smoother, stop), rules=self._rules)
+        return Recipe.of(Stage(smoother, stop), rules=self.data.rules)
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""
-        return ComparisonData(self.initial, self.stop, self._asked, self.results, self._rules)
+        return self.data
 
     def restore(self, data: ComparisonData) -> None:
         """Restore the comparison of a session file."""
         self.close()
-        self.initial, self.stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
-        self._rules = data.rules
+        self.data = data
         self.changed.emit()
 
     def close(self) -> None:
@@ -232,15 +233,9 @@ class Comparison(QObject):
         drop(self._task)
         self._task = self.progress = None
 
-    def _clear(self) -> None:
-        self.close()
-        self.initial, self.results, self._asked = None, (), 0
-        self.stop, self._rules = StoppingCriteria(), MotionRules()
-        self.changed.emit()
-
     def _take(self, report: MethodResult | ComparisonProgress) -> None:
         if isinstance(report, MethodResult):
-            self.results = (*self.results, report)
+            self.data = replace(self.data, results=(*self.results, report))
             self.changed.emit()
         else:
             self.progress = report

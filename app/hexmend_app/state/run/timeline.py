@@ -32,17 +32,15 @@ class Timeline(QObject):
     -------
     runs_changed
         A run was added or removed.
-    extended
-        There are more iterations, or another run was selected.
+    changed
+        There are more iterations, another run was selected, or playing has begun or ended.
     moved
         Another iteration is shown, or none.
-    playing_changed
     """
 
     runs_changed = Signal()
-    extended = Signal()
+    changed = Signal()
     moved = Signal()
-    playing_changed = Signal()
 
     def __init__(self, document: Document, smoothing: RunController, history: History, parent: QObject | None = None):
         super().__init__(parent)
@@ -60,7 +58,7 @@ class Timeline(QObject):
         self._clock.timeout.connect(self._play_next)
         document.mesh_replaced.connect(self._on_mesh_replaced)
         document.points_moved.connect(self._on_moved)
-        smoothing.iterated.connect(lambda frame: self.extended.emit())
+        smoothing.iterated.connect(lambda frame: self.changed.emit())
         smoothing.phase_changed.connect(self._on_phase)
 
     @property
@@ -114,19 +112,19 @@ class Timeline(QObject):
         if self.shown_iteration is None or self.shown_iteration.number >= self.record.newest:
             self.go(self.record, 0)
         self._clock.start(round(1000 / self.speed))
-        self.playing_changed.emit()
+        self.changed.emit()
 
     def pause(self) -> None:
         """Pause playing."""
         if self.playing:
             self._clock.stop()
-            self.playing_changed.emit()
+            self.changed.emit()
 
     def choose(self, record: RunRecord) -> None:
         """Select another run, and show its result or newest iteration."""
         self.pause()
         self.record = record
-        self.extended.emit()
+        self.changed.emit()
         self.go(record, record.newest if record.result is None else record.result)
 
     def to_data(self) -> int | None:
@@ -139,7 +137,7 @@ class Timeline(QObject):
         self.update_runs()
         if run is not None:
             self.record = self.history.records[run]
-            self.extended.emit()
+            self.changed.emit()
 
     def delete(self, record: RunRecord) -> None:
         """Delete a run, unless it is active."""
@@ -157,7 +155,7 @@ class Timeline(QObject):
         if self._runs != self.history.records:
             self._runs = list(self.history.records)
             self.runs_changed.emit()
-        self.extended.emit()
+        self.changed.emit()
 
     def _go_by(self, by: int) -> None:
         if self.record is None:
@@ -189,7 +187,7 @@ class Timeline(QObject):
             self.shown_iteration = shown
             if shown is not None and shown.number and shown.record is not self.record:
                 self.record = shown.record
-                self.extended.emit()
+                self.changed.emit()
             self.moved.emit()
 
     def _on_mesh_replaced(self) -> None:

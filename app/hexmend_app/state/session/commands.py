@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
 from hexmend.boundary.marking import with_curve, without_curves
 from hexmend.io.surfaces.read import sliding_on_boundary, sliding_on_file
@@ -17,7 +17,7 @@ from hexmend.mesh.fixing import fix, fix_outside, unfix
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag
 from hexmend.quality import summarise
-from hexmend.run.memory import available, shortage
+from hexmend.run.memory import Shortage, available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.formats.session import SUFFIX
@@ -34,14 +34,7 @@ class Commands(QObject):
     Parameters
     ----------
     session : Session
-
-    Signals
-    -------
-    memory_short(Shortage, callable)
-        Memory will probably not suffice for a run, which was not started; call the callable to start it anyway.
     """
-
-    memory_short = Signal(object, object)
 
     def __init__(self, session: Any):  # of a type that has these commands
         super().__init__(session)
@@ -77,49 +70,33 @@ class Commands(QObject):
         self._saver.save(saving)
         return saving
 
-    def run(self, stage: Stage) -> None:
-        """Run a method on the current mesh, unless another mesh is being read."""
-        self.when_memory_suffices([stage.smoother], lambda: self._start(stage))
+    def shortage(self, works: Sequence[Smoother | Recipe]) -> Shortage | None:
+        """Return the largest shortage of memory for methods on the current mesh; None if memory will suffice."""
+        free, mesh = available(), self.document.now.mesh
+        shortages = [found for work in works if (found := shortage(work, mesh, free)) is not None]
+        return max(shortages, key=lambda shortage: shortage.needed, default=None)
+
+    def run(self, stage: Stage, iterations: float = math.inf) -> None:
+        """Run a method on the current mesh, and pause it after some iterations, unless the mesh cannot be edited."""
+        if self._begin_edit():
+            self._session.run_setup.active_stage = stage
+            self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
 
     def step(self, stage: Stage, iterations: int) -> None:
         """Run some iterations: the next ones of a paused run, or the first ones of a new run."""
         if self.smoothing.busy:
             self.smoothing.step(iterations)
         else:
-            self.when_memory_suffices([stage.smoother], lambda: self._start(stage, iterations))
-
-    def when_memory_suffices(self, works: Sequence[Smoother | Recipe], start: Callable[[], object]) -> None:
-        """Call `start` if memory suffices for each method on the current mesh; otherwise emit `memory_short`.
-
-        Do nothing if no mesh is open, or a mesh is being read, repaired or padded.
-        """
-        changing = self._opener.busy or self._repairer.busy or self._padder.busy
-        if not self.document.is_open or changing:
-            return
-        free = available()
-        mesh = self.document.now.mesh
-        shortages = [found for work in works if (found := shortage(work, mesh, free)) is not None]
-        if shortages:
-            self.memory_short.emit(max(shortages, key=lambda shortage: shortage.needed), start)
-        else:
-            start()
-
-    def _start(self, stage: Stage, iterations: float = math.inf) -> None:
-        if self._begin_edit():
-            self._session.run_setup.active_stage = stage
-            self.smoothing.start(stage.smoother, stage.stop, iterations, self._session.run_setup.rules)
+            self.run(stage, iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:
-        """Run the methods of a recipe one after another on the current mesh, unless another mesh is being read."""
-        self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
-
-    def _start_recipe(self, recipe: Recipe) -> None:
+        """Run the methods of a recipe one after another on the current mesh, unless it cannot be edited."""
         if self._begin_edit():
             self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as shown, at any iteration; an active run ends first."""
-        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.finish_then(lambda: self._start(stage)))
+        self.smoothing.finish_then(lambda: self.run(stage))
 
     def reset(self) -> None:
         """End the run and move the nodes back to where they were when the mesh was opened."""

@@ -135,9 +135,9 @@ class Session(QObject):
         others = (
             self.document.mesh_replaced, self.document.points_moved,
             run.phase_changed, run.iterated, run.hit, run.ended, run.failed,
-            timeline.extended, timeline.moved, timeline.playing_changed,
+            timeline.changed, timeline.moved,
             self.selection.changed, self.side_views.wiped, self.comparison.progressed, self.run_setup.chosen,
-            self.node_sweep.changed, self.view.camera_wanted,
+            self.node_sweep.changed,
             opener.began, opener.progressed, opener.ended, opener.cancelled, opener.failed, opener.mesh_missing,
             self.time_reader.progressed, self.time_reader.ended,
             saver.began, saver.progressed, saver.ended, saver.failed,

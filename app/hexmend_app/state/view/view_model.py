@@ -65,8 +65,6 @@ class ViewModel(QObject):
     changed
     metric_wanted(name)
         Request to colour by a metric in its default range.
-    camera_wanted
-        `wanted_camera` is to be applied as soon as the view draws the open mesh.
 
     Attributes
     ----------
@@ -89,7 +87,6 @@ class ViewModel(QObject):
 
     changed = Signal()
     metric_wanted = Signal(str)
-    camera_wanted = Signal()
 
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
@@ -155,7 +152,7 @@ class ViewModel(QObject):
     def request_camera(self, camera: Camera | None) -> None:
         """Request a camera for the 3D view."""
         self.wanted_camera = camera
-        self.camera_wanted.emit()
+        self.changed.emit()
 
     def store_remaining_hexes(self, left: np.ndarray | None) -> None:
         """Store the hexes kept by a cut by whole hexes, (m,) bool, so that they stay the same while nodes move."""

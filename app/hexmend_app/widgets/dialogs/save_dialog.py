@@ -60,11 +60,9 @@ class SaveDialog(QDialog):
         self._problem = small_label("", WORSE)
         self._problem.setAccessibleName(tr("Problem"))
 
-    def lay_out_below(self, upper: QLayout, *additional: QPushButton) -> None:
-        """Lay out path, problem and buttons, the `additional` ones on the left, below the layout of the settings."""
+    def lay_out_below(self, upper: QLayout) -> None:
+        """Lay out path, problem and buttons below the layout of the settings."""
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
-        for button in additional:
-            buttons.addButton(button, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         fill(QVBoxLayout(self), (upper, 1), self.target, self._problem, buttons)
