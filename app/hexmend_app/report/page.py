@@ -12,7 +12,8 @@ from typing import Any
 from markupsafe import Markup
 
 from hexmend import __version__
-from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.atomic import atomic_write, check_writable
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.solid_cells import count_cells
 from hexmend.quality.regressions import describe_regressions
 from hexmend.quantity import format_count, format_quality, format_significant
@@ -22,7 +23,9 @@ from hexmend.study.compare import Row
 from hexmend.study.machine import machine
 from hexmend.terminal_text import count_phrase, printable
 from hexmend_app.report.case import Case, Version
+from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_set import PARTS, Figure, Style, table_of, write_figures
+from hexmend_app.report.pdf import check_pdf, write_pdf
 from hexmend_app.report.templates import ENVIRONMENT, html, read
 from hexmend_app.report.viewer import script, viewer
 from hexmend_app.report.worst_hexes import Locked, worst_table
@@ -33,6 +36,9 @@ _PLOTS = ("distributions", "convergence")
 
 #: Width of a plot in mm, at which its text has the size of the page's text.
 _PLOT = 120.0
+
+#: Pixels per inch of the pictures.
+REPORT_DPI = 220.0
 
 
 @dataclass(frozen=True)
@@ -131,8 +137,27 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
     return text.encode("utf-8", "replace").decode("utf-8")  # file names can have undecodable bytes
 
 
-def write_page(path: Path, text: str) -> None:
-    """Write a page atomically."""
+def check_report(path: Path) -> bool:
+    """Return True if a report is an interactive HTML page, False if it is a PDF.
+
+    Raises
+    ------
+    HexmendError
+        If a library is missing, or the report cannot be written.
+    """
+    interactive = suffix_for(path, "a report", (".html", ".pdf")) == ".html"
+    if not interactive:
+        check_pdf()
+    check_writable(path)
+    check_matplotlib()
+    return interactive
+
+
+def write_report(path: Path, text: str) -> None:
+    """Write a report atomically, as HTML or PDF by the suffix."""
+    if path.suffix.lower() == ".pdf":
+        write_pdf(path, text)
+        return
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 

@@ -9,7 +9,7 @@ import pytest
 from hexmend.quality import METRICS, measure, rank_worst
 from hexmend_app.picture import Page, Scene
 from hexmend_app.report.figure_set import Style
-from hexmend_app.report.page import draw_chapter, page, write_page
+from hexmend_app.report.page import draw_chapter, page, write_report
 from hexmend_app.scene.render.colour_count import count_colours
 
 pytestmark = pytest.mark.slow
@@ -33,7 +33,7 @@ def written(case, tmp_path_factory):
 
     prepare_off_screen()
     path = tmp_path_factory.mktemp("report") / "report.html"
-    write_page(
+    write_report(
         path,
         page("Report", [chapter(case, STYLE, interactive=True)], "hexmend report", interactive=True),
     )
@@ -201,7 +201,7 @@ def test_without_webgl_the_picture_is_shown_instead(browser, written):
 def test_the_contents_link_to_all_sections(browser, case, tmp_path):
     path = tmp_path / "report.html"
     told = [chapter(case, STYLE, interactive=False, place=place) for place in ("mesh-1", "mesh-2")]
-    write_page(path, page("Two", told, "hexmend report", interactive=False))
+    write_report(path, page("Two", told, "hexmend report", interactive=False))
     with browser() as opened:
         opened.page.goto(path.as_uri())
         links = opened.page.locator("nav a")
@@ -229,7 +229,7 @@ def test_names_are_escaped(browser, case, tmp_path):
     versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))
     hostile = replace(case, name=name, versions=versions)
     path = tmp_path / "report.html"
-    write_page(path, page(name, [chapter(hostile, STYLE, interactive=True)], name, interactive=True))
+    write_report(path, page(name, [chapter(hostile, STYLE, interactive=True)], name, interactive=True))
     with browser() as opened:
         opened.open(path)
         assert opened.page.title() == name

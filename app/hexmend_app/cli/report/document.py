@@ -11,8 +11,6 @@ from pathlib import Path
 from hexmend.cli.arguments.run_arguments import check_memory
 from hexmend.cli.output.progress import Progress, show_count
 from hexmend.cli.process.interrupts import CleanExit, FinishWriting
-from hexmend.io.storage.atomic import check_writable
-from hexmend.io.storage.suffixes import suffix_for
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import Smoother
@@ -20,30 +18,18 @@ from hexmend.terminal_text import printable
 from hexmend_app.cli import run_options, scene_options
 from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
-from hexmend_app.report.charts import check_matplotlib
 from hexmend_app.report.figure_set import Figure, Style, check_pages
-from hexmend_app.report.page import Chapter, write_page
-from hexmend_app.report.pdf import check_pdf, write_pdf
-
-#: Suffixes of reports.
-_SUFFIXES = (".html", ".pdf")
-
-#: Pixels per inch of the pictures.
-_DPI = 220.0
+from hexmend_app.report.page import Chapter
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the methods on each mesh and write the report; invalid options are reported before the runs."""
     path = Path(args.output)
-    interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
-    check_writable(path)
-    check_matplotlib()
+    interactive = page.check_report(path)
     options = run_options.words(args, ("mesh", "output", "title", "force"))
     smoothers, stop = run_options.methods(args)
     names, scene = run_options.names(args, len(smoothers)), scene_options.scene(args)
-    if not interactive:
-        check_pdf()
-    style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
+    style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or page.REPORT_DPI)))
     check_pages(style, 1 + len(smoothers))
     writer = _ChapterWriter(args, smoothers, stop, names, style, interactive)
     with FinishWriting() as writing:
@@ -52,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
         title_option = ["--title", args.title] if args.title else []
         command = command_line(["report", *args.mesh, *options, *title_option, "-o", args.output])
         document = page.page(title, writer.chapters, command, interactive=interactive)
-        (write_page if interactive else write_pdf)(path, document)
+        page.write_report(path, document)
         print(f"{args.output}: {path.stat().st_size / 1e6:.1f} MB")
         if interrupted:
             print("Interrupted: the report shows the results so far.", file=sys.stderr)

@@ -191,7 +191,7 @@ class ReportSettings(ExportSettings):
 
     def check(self, path: Path) -> None:
         """Raise `HexmendError` if a library is missing, or the report cannot be written to the path."""
-        from hexmend_app.features.export.report_files import check_report
+        from hexmend_app.report.page import check_report
 
         check_matplotlib()
         if self.kinds:

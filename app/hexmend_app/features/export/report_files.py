@@ -6,8 +6,6 @@ from collections.abc import Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.io.storage.atomic import check_writable
-from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import from_values
 from hexmend.report.documents import output_folder
 from hexmend.run.recipe import Recipe, Stage
@@ -18,30 +16,16 @@ from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import INITIAL, Case, Source, Version, command_line
 from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import Figure, Style, stationary, write_figures
-from hexmend_app.report.page import draw_chapter, page, write_page
-from hexmend_app.report.pdf import check_pdf, write_pdf
+from hexmend_app.report.page import REPORT_DPI, check_report, draw_chapter, page, write_report
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.session.session import Session
 from hexmend_app.translation import tr
-
-#: Suffixes of reports.
-_SUFFIXES = (".html", ".pdf")
-
-#: Pixels per inch of the pictures of a report.
-_DPI = 220.0
 
 #: File formats of each figure of a set.
 _FORMATS = ("png", "pdf", "svg")
 
 #: Largest number of meshes in a figure.
 _MAX_MESHES = 12
-
-
-def check_report(path: Path) -> None:
-    """Raise `HexmendError` if a library is missing, or the report cannot be written."""
-    if suffix_for(path, "a report", _SUFFIXES) == ".pdf":
-        check_pdf()
-    check_writable(path)
 
 
 def figure_set(session: Session, scene: Scene, folder: Path, title: str) -> Generator[Figure]:
@@ -76,16 +60,15 @@ def figure_set(session: Session, scene: Scene, folder: Path, title: str) -> Gene
 
 def report(session: Session, scene: Scene, path: Path, stem: str) -> Generator[Figure]:
     """Yield the figures of a report, then write it as HTML or PDF by the suffix of its path."""
-    check_report(path)
-    document, interactive = session.document, path.suffix.lower() == ".html"
+    document, interactive = session.document, check_report(path)
     name, file = document.now.mesh.name, document.path
     source = Source.of(str(file)) if file is not None and file.exists() else None
     case = Case(name, source, tuple(versions_of(session)), stop=None)
     scene = stationary(scene)
-    style = Style(replace(scene, page=replace(scene.page, dpi=_DPI)))
+    style = Style(replace(scene, page=replace(scene.page, dpi=REPORT_DPI)))
     chapter = yield from draw_chapter(case, style, interactive=interactive)
     text = page(tr("Report on {name}", name=name or stem), [chapter], "", interactive=interactive)
-    (write_page if interactive else write_pdf)(path, text)
+    write_report(path, text)
 
 
 def versions_of(session: Session) -> list[Version]:
@@ -144,10 +127,9 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
         before = run.stages
     else:
         return recipes
-    stop = comparison.to_data().stop
     for row in (one.row for one in comparison.results if one.row.method in METHODS):
         method = METHODS[row.method]
-        stage = Stage(from_values(method, row.parameters, owner=row.method), stop)
+        stage = Stage(from_values(method, row.parameters, owner=row.method), comparison.data.stop)
         title = f"{method.title} (compared)" if run is not None and run.title == method.title else method.title
         recipes[f"{row.method}.toml"] = Recipe.of(*before, stage, title=title)
     return recipes

@@ -31,7 +31,7 @@ class FeatureMeasure(Feature):
         self.strip.clear_button.clicked.connect(self._view.clear_measurement)
 
     def actions(self) -> Iterable[Action]:
-        """Yield the actions that measure and copy."""
+        """Yield the action that measures."""
         yield Action(
             id="measure",
             text=tr("&Measure"),
@@ -44,13 +44,6 @@ class FeatureMeasure(Feature):
             checked=lambda: self._view.measuring,
             enabled=lambda: self.canvas is not None,
             in_view=True,
-        )
-        yield Action(
-            id="copy_measurement",
-            text=tr("Copy measurement"),
-            help=tr("Copy the measured points, distances and angle to the clipboard."),
-            handle=self.strip.copy,
-            enabled=lambda: len(self._view.look.measurement.points) > 1,
         )
 
     def canvas_ready(self) -> None:

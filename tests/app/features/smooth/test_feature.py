@@ -203,7 +203,8 @@ def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click_until(window, qtbot, "Step", Phase.PAUSED)
     record = window.session.run.record
-    window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
+    choose(window, "mend", StoppingCriteria())
+    window.action("iteration_branch").trigger()
     assert len(asked) == 1
     assert window.session.run.phase is Phase.PAUSED
     assert window.session.run.record is record

@@ -134,7 +134,9 @@ def test_the_result_is_said_with_what_was_possible():
     result = smooth(mesh, Mend())
     least = movable_least(mesh, result.mesh.points)
     assert "The minimum scaled Jacobian of the corners that can be moved reached " in result.message
-    assert f"the result has at least {least.jacobian:.4f}, and a q(H) of at least {least.quality:.4f}." in result.message
+    assert (
+        f"the result has at least {least.jacobian:.4f}, and a q(H) of at least {least.quality:.4f}." in result.message
+    )
 
 
 SLIDING = {
