@@ -218,15 +218,13 @@ class Feature(QObject):
         remedy = shortage.remedy(tr("isolate a region and pin the rest (Hex menu)"), titled=True)
         return ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy)
 
-    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
-        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
+    def try_and_report(self, failure: str, act: Callable[[], object]) -> bool:
+        """Call `act` and return True, or show an error with the title `failure`."""
         try:
             act()
         except HexmendError as error:
             self.host.messages.show_error(failure, str(error))
             return False
-        if success:
-            self.host.messages.show_info(success)
         return True
 
     def write_file(self, subject: str, path: str | Path, write: Callable[[Path], object]) -> bool:

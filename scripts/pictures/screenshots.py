@@ -71,7 +71,7 @@ def wait_until_drawn(window: Window) -> None:
     canvas = window.canvas
     wait_until(lambda: not canvas.camera_animation.active)
     canvas.draw_still()
-    wait_until(lambda: not canvas.shading_task.active)
+    wait_until(lambda: not canvas.shading_task.busy)
     process_events(0.5)
 
 

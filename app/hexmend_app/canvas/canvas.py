@@ -300,7 +300,7 @@ class Canvas(CameraView):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Release graphics resources while the window still exists."""
         self._closed = True
-        self.shading_task.shut_down()
+        self.shading_task.close()
         for handles in self._handle_widgets:
             handles.close()
         self.release_graphics()

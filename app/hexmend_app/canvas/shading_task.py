@@ -9,10 +9,11 @@ from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.layers.mesh import MeshLayer
 from hexmend_app.scene.views.panes import Panes
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 
 
-class ShadingTask(QObject):
+class ShadingTask(OneTask):
     """Computes the shading of the visible views in the background, one view at a time.
 
     Signals
@@ -26,12 +27,6 @@ class ShadingTask(QObject):
     def __init__(self, panes: Panes, parent: QObject | None = None):
         super().__init__(parent)
         self._panes = panes
-        self._task: Task | None = None
-
-    @property
-    def active(self) -> bool:
-        """True while shading is being computed."""
-        return self._task is not None
 
     def start(self) -> None:
         """Compute the missing shading of fine frames."""
@@ -48,22 +43,12 @@ class ShadingTask(QObject):
             return occlusion.ambient_light(polygons, lambda: mesh_layer.draws(polygons) and not task.cancelled.is_set())
 
         self._target = mesh_layer, polygons
-        self._task = Task("shading of the mesh", work, yields=True)
-        self._task.ended.connect(self._finish)
-        self._task.start()
+        self._start("shading of the mesh", work, yields=True)
 
-    def _finish(self) -> None:
-        task, self._task = self._task, None
-        if task is None:  # it ended while the view was closed
-            return
+    def _finish(self, task: Task) -> None:
         mesh_layer, polygons = self._target
         if task.error is not None:
             raise task.error
         if task.result is not None and mesh_layer.apply_shading(polygons, task.result):
             self.finished.emit()
         self.start()
-
-    def shut_down(self) -> None:
-        """Stop the thread; pending results are dropped."""
-        drop(self._task)
-        self._task = None

@@ -7,7 +7,7 @@ def rested(window, qtbot):
     """Wait until the view is shaded, and return its mesh layer."""
     window.canvas.rest()
     mesh_layer = window.canvas.viewport.mesh_layer
-    qtbot.waitUntil(lambda: mesh_layer.light is not None and not window.canvas.shading_task.active)
+    qtbot.waitUntil(lambda: mesh_layer.light is not None and not window.canvas.shading_task.busy)
     return mesh_layer
 
 
@@ -22,5 +22,5 @@ def test_a_view_at_rest_is_shaded(window, qtbot):
 def test_shutting_down_ends_the_computation(window):
     window.canvas.panes.still()
     window.canvas.shading_task.start()
-    window.canvas.shading_task.shut_down()
-    assert not window.canvas.shading_task.active
+    window.canvas.shading_task.close()
+    assert not window.canvas.shading_task.busy

@@ -202,7 +202,8 @@ class FeatureCamera(Feature):
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
         success = tr("Camera saved as “{name}”; apply it with View > Camera > Saved cameras.", name=name)
-        self.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
+        if self.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera)):
+            self.host.messages.show_info(success)
 
     def go(self, name: str) -> None:
         """Apply a saved camera."""

@@ -13,7 +13,7 @@ class FeatureEdit(Feature):
 
     def actions(self) -> Iterable[Action]:
         """Yield undo and redo, whose texts name the change."""
-        commands = self.session.commands
+        commands, document = self.session.commands, self.session.document
         yield Action(
             id="undo",
             text=tr("&Undo"),
@@ -35,17 +35,11 @@ class FeatureEdit(Feature):
             help=tr("Redo the change that was undone last."),
             tool=tr("Redo"),
             handle=commands.redo,
-            enabled=lambda: self.session.editable and self._redo_title is not None,
-            title=lambda: tr("&Redo {title}", title=tr(self._redo_title or "")).strip(),
+            enabled=lambda: self.session.editable and document.redo_title is not None,
+            title=lambda: tr("&Redo {title}", title=tr(document.redo_title or "")).strip(),
         )
 
     @property
     def _undo_title(self) -> str | None:
         """Name of the change that Undo reverts; None if there is none."""
-        document = self.session.document
-        return self.session.node_sweep.title or (document.undo_title if document.is_open else None)
-
-    @property
-    def _redo_title(self) -> str | None:
-        """Name of the change that Redo applies; None if there is none."""
-        return self.session.document.redo_title if self.session.document.is_open else None
+        return self.session.node_sweep.title or self.session.document.undo_title

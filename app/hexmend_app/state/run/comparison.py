@@ -22,7 +22,8 @@ from hexmend.smoothers import METHODS, Smoother
 from hexmend.study import compare
 from hexmend.study.compare import Row, run_one
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 
 #: Seconds between two reports of the progress.
 _PERIOD = 0.1
@@ -121,7 +122,7 @@ def _result_of(row: Row, initial: Mesh) -> MethodResult:
     return MethodResult(replace(row, mesh=mesh), MeasuredMesh.of(mesh))
 
 
-class Comparison(QObject):
+class Comparison(OneTask):
     """Runs methods on the current mesh, which is left unchanged.
 
     Signals
@@ -145,7 +146,6 @@ class Comparison(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._task: Task | None = None
         self.progress: ComparisonProgress | None = None
         self.data = ComparisonData()
         document.mesh_replaced.connect(lambda: self.restore(ComparisonData()))
@@ -159,11 +159,6 @@ class Comparison(QObject):
     def results(self) -> tuple[MethodResult, ...]:
         """Results of the finished methods."""
         return self.data.results
-
-    @property
-    def busy(self) -> bool:
-        """True while methods run."""
-        return self._task is not None
 
     @property
     def ending(self) -> bool:
@@ -191,10 +186,7 @@ class Comparison(QObject):
         self.data = ComparisonData(self._document.now, stop, len(smoothers), rules=rules or MotionRules())
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
         work = partial(_run_all, self.initial, tuple(smoothers), stop, self.data.rules)
-        self._task = Task("comparison of methods", work, yields=True)
-        self._task.reported.connect(self._take)
-        self._task.ended.connect(self._finish)
-        self._task.start()
+        self._start("comparison of methods", work, yields=True)
         self.changed.emit()
 
     def cancel(self) -> None:
@@ -230,19 +222,19 @@ class Comparison(QObject):
 
     def close(self) -> None:
         """Cancel the comparison without further signals."""
-        drop(self._task)
-        self._task = self.progress = None
+        super().close()
+        self.progress = None
 
-    def _take(self, report: MethodResult | ComparisonProgress) -> None:
-        if isinstance(report, MethodResult):
-            self.data = replace(self.data, results=(*self.results, report))
+    def _take(self, message: MethodResult | ComparisonProgress) -> None:
+        if isinstance(message, MethodResult):
+            self.data = replace(self.data, results=(*self.results, message))
             self.changed.emit()
         else:
-            self.progress = report
+            self.progress = message
             self.progressed.emit()
 
-    def _finish(self) -> None:
-        task, self._task, self.progress = self._task, None, None
+    def _finish(self, task: Task) -> None:
+        self.progress = None
         if task.error is not None:
             raise task.error
         self.changed.emit()

@@ -7,10 +7,11 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 
 
-class LatestTask(QObject):
+class LatestTask(OneTask):
     """Computes a function of one request at a time; of the requests made meanwhile, only the latest is computed next.
 
     Signals
@@ -41,7 +42,6 @@ class LatestTask(QObject):
         self._latest: tuple[Any, ...] | None = None
         self._active: tuple[Any, ...] | None = None
         self._ended: tuple[Any, ...] | None = None  # the request of `result` and `error`
-        self._task: Task | None = None
         self.result: Any = None
         self.error: BaseException | None = None
 
@@ -59,7 +59,7 @@ class LatestTask(QObject):
         if request != self._latest:
             self._latest = request
             if self._task is None:
-                self._start()
+                self._begin()
 
     def forget(self) -> None:
         """Drop the result, and those of pending requests."""
@@ -68,22 +68,18 @@ class LatestTask(QObject):
     def close(self) -> None:
         """Cancel the task and drop its result."""
         self._latest = self._ended = None
-        drop(self._task)
-        self._task = None
+        super().close()
 
-    def _start(self) -> None:
+    def _begin(self) -> None:
         self._active, self.error = self._latest, None
         request, compute = self._active, self._compute
-        self._task = Task(self._name, lambda _: compute(*request))
-        self._task.ended.connect(self._finish)
-        self._task.start()
+        self._start(self._name, lambda _: compute(*request))
 
-    def _finish(self) -> None:
-        task, self._task = self._task, None
+    def _finish(self, task: Task) -> None:
         if self._latest is None:
             return
         if self._active != self._latest:
-            self._start()
+            self._begin()
             return
         self.result, self.error, self._ended = task.result, task.error, self._latest
         self.found.emit()

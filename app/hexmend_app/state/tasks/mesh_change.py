@@ -12,7 +12,8 @@ from hexmend.doctor import PROBLEMS, repair
 from hexmend.mesh.mesh import Mesh
 from hexmend.padding import pad
 from hexmend_app.state.mesh.document import Command, Document, MeasuredMesh
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +38,7 @@ class MeshChange:
     command: Command
 
 
-class MeshChanger(QObject):
+class MeshChanger(OneTask):
     """Changes the mesh, which can be viewed but not edited meanwhile.
 
     Parameters
@@ -64,21 +65,13 @@ class MeshChanger(QObject):
         super().__init__(parent)
         self._document = document
         self._before: MeasuredMesh | None = None
-        self._task: Task | None = None
         document.mesh_replaced.connect(self.cancel)
-
-    @property
-    def busy(self) -> bool:
-        """True while the mesh is being changed."""
-        return self._task is not None
 
     def start(self, name: str, change: Callable[[MeasuredMesh, Task], MeshChange]) -> None:
         """Start a change of the mesh, which is editable, by a function of its state and the task."""
         self._before = before = self._document.now
-        self._task = Task(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
-        self._task.ended.connect(self._finish)
+        self._start(f"{name} {before.mesh.name}", lambda task: change(before, task), yields=True)
         self.began.emit()
-        self._task.start()
 
     def cancel(self) -> None:
         """Cancel the change; the mesh is unchanged."""
@@ -86,15 +79,8 @@ class MeshChanger(QObject):
             self.close()
             self.cancelled.emit()
 
-    def close(self) -> None:
-        """Cancel the change without a signal: the window closes."""
-        drop(self._task)
-        self._before = self._task = None
-
-    def _finish(self) -> None:
-        task, self._task = self._task, None
-        before, self._before = self._before, None
-        document = self._document
+    def _finish(self, task: Task) -> None:
+        before, self._before, document = self._before, None, self._document
         if task.error is not None:
             self.failed.emit(task.error)
         elif document.now is not before:  # the user has gone to another iteration

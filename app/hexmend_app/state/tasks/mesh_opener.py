@@ -19,6 +19,7 @@ from hexmend_app.state.session import session_data
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture, restore_picture
 from hexmend_app.state.session.session_data import SessionData
 from hexmend_app.state.tasks.file_watcher import FileWatcher
+from hexmend_app.state.tasks.one_task import OneTask
 from hexmend_app.state.tasks.task import Task
 
 
@@ -93,7 +94,7 @@ def _read(path: Path, task: Task) -> MeasuredMesh | SessionData:
     return opened
 
 
-class MeshOpener(QObject):
+class MeshOpener(OneTask):
     """Opens meshes, sessions and pictures in the document.
 
     Signals
@@ -131,7 +132,6 @@ class MeshOpener(QObject):
         super().__init__(parent)
         self._document = document
         self._path: Path | None = None  # of the file that is being read
-        self._task: Task | None = None
         self._next: tuple[Path, bool, MissingMesh | None] | None = None
         self._recovers = self._restoring = False
 
@@ -156,26 +156,24 @@ class MeshOpener(QObject):
             self._next = path, recovers, picture
             return
         self._path, self._recovers = path, recovers
-        self._task = Task(f"reading {path.name}", partial(_open, path, picture))
-        self._task.reported.connect(self.progressed)
-        self._task.ended.connect(self._finish)
+        self._start(f"reading {path.name}", partial(_open, path, picture))
         self.began.emit(path)
-        self._task.start()
 
     def cancel(self) -> None:
         """Drop what is being read: its thread ends when it next reports progress; other files can be opened at once."""
-        if self._task is None:
-            return
-        task, self._task, self._next = self._task, None, None
-        task.drop()
-        self.cancelled.emit(self._path)
+        if self._task is not None:
+            self._next = None
+            super().close()
+            self.cancelled.emit(self._path)
 
     def close(self) -> None:
         """Cancel the opening: the window closes."""
         self.cancel()
 
-    def _finish(self) -> None:
-        task, self._task = self._task, None
+    def _take(self, message: LoadProgress) -> None:
+        self.progressed.emit(message)
+
+    def _finish(self, task: Task) -> None:
         result = task.result
         if self._next is not None:
             (path, recovers, picture), self._next = self._next, None
@@ -185,10 +183,10 @@ class MeshOpener(QObject):
         elif isinstance(result, MissingMesh):
             self.mesh_missing.emit(result)
         else:
-            self._take(result)
+            self._show(result)
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)
 
-    def _take(self, result: MeasuredMesh | SessionData | RestoredPicture) -> None:
+    def _show(self, result: MeasuredMesh | SessionData | RestoredPicture) -> None:
         """Show what was read in the document."""
         if isinstance(result, SessionData):
             self._restoring = True  # busy until it is restored: signals emitted meanwhile are no changes by the user

@@ -10,12 +10,13 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
-from hexmend.io.storage.file_progress import watch_files
+from hexmend.io.storage.file_progress import FileProgress, watch_files
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session_data import SessionData
 from hexmend_app.state.tasks.file_watcher import FileWatcher
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 from hexmend_app.state.view.saved_cameras import SavedCameras
 
 
@@ -85,7 +86,7 @@ def _write(saving: SaveTask, task: Task) -> None:
         saving.write()
 
 
-class MeshSaver(QObject):
+class MeshSaver(OneTask):
     """Writes meshes and sessions in the background, one after another.
 
     Parameters
@@ -115,12 +116,6 @@ class MeshSaver(QObject):
         self._document, self._cameras = document, cameras
         self._waiting: deque[SaveTask] = deque()
         self._saving: SaveTask | None = None
-        self._task: Task | None = None
-
-    @property
-    def busy(self) -> bool:
-        """True while a file is being written."""
-        return self._saving is not None
 
     @property
     def path(self) -> Path | None:
@@ -135,21 +130,21 @@ class MeshSaver(QObject):
     def close(self) -> None:
         """Drop all files that are not written yet; the caller has waited for them or decided not to."""
         self._waiting.clear()
-        drop(self._task)
-        self._saving = self._task = None
+        super().close()
+        self._saving = None
 
     def _begin(self) -> None:
         if self._saving is None and self._waiting:
             self._saving = saving = self._waiting.popleft()
             saving.originals = self._document.originals  # not earlier: a save before may have written one of them
-            self._task = Task(f"saving {saving.path.name}", partial(_write, saving))
-            self._task.reported.connect(lambda progress: self.progressed.emit(saving, progress))
-            self._task.ended.connect(self._finish)
+            self._start(f"saving {saving.path.name}", partial(_write, saving))
             self.began.emit(saving)
-            self._task.start()
 
-    def _finish(self) -> None:
-        saving, task, self._saving, self._task = self._saving, self._task, None, None
+    def _take(self, message: FileProgress) -> None:
+        self.progressed.emit(self._saving, message)
+
+    def _finish(self, task: Task) -> None:
+        saving, self._saving = self._saving, None
         saving.error = task.error
         if saving.error is None:
             self._mark_saved(saving)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, QTimer
 from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.mesh.structure import find_structure
 from hexmend_app.state.tasks.latest_task import LatestTask
+from hexmend_app.state.tasks.task import Task
 
 #: Milliseconds from opening a mesh to the search: the mesh is drawn first.
 _DELAY = 100
@@ -37,7 +38,7 @@ class StructureFinder(LatestTask):
         self._soon.stop()
         self.ask(self._document.start.mesh)
 
-    def _finish(self) -> None:
-        super()._finish()
+    def _finish(self, task: Task) -> None:
+        super()._finish(task)
         if self.error is not None:
             raise self.error

@@ -22,12 +22,6 @@ def running() -> tuple[Task, ...]:
     return tuple(sorted((task for task in _STARTED if not task.over), key=lambda task: task.name))
 
 
-def drop(task: Task | None) -> None:
-    """Drop a task, if there is one."""
-    if task is not None:
-        task.drop()
-
-
 def wait_for_dropped() -> None:
     """Wait for the threads of all dropped tasks, at most `GRACE` seconds in total.
 

@@ -17,7 +17,8 @@ from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.mesh.history import History
 from hexmend_app.state.mesh.run_record import CONSTANT, TIME, RunRecord
 from hexmend_app.state.run.timeline import Timeline
-from hexmend_app.state.tasks.task import Task, drop
+from hexmend_app.state.tasks.one_task import OneTask
+from hexmend_app.state.tasks.task import Task
 
 #: Title of the record.
 TITLE = "Case times"
@@ -34,7 +35,7 @@ def _read(path: Path, state: MeasuredMesh, task: Task) -> None:
         raise FileError(path, f"its times cannot be read ({type(error).__name__}: {error})") from error
 
 
-class TimeReader(QObject):
+class TimeReader(OneTask):
     """Records the times of a case whose mesh was opened, at which its points are stored.
 
     The mesh in constant is number 0. Node positions are stored within the memory limit of the history.
@@ -67,18 +68,12 @@ class TimeReader(QObject):
         self._record: RunRecord | None = None
         self._found: list[FileError] = []
         self.errors: tuple[FileError, ...] = ()
-        self._task: Task | None = None
         document.mesh_replaced.connect(self.close)
 
     @property
     def last_time(self) -> str:
         """Name of the time that was read last; "" if none is being read."""
         return "" if self._record is None else self._record.label(self._record.newest)
-
-    @property
-    def busy(self) -> bool:
-        """True while times are being read."""
-        return self._task is not None
 
     def read(self, path: Path) -> None:
         """Start reading the times of a case; nothing happens for other files.
@@ -92,15 +87,12 @@ class TimeReader(QObject):
         if find_case(path) is None:
             return
         self._state, self._found = self._document.now, []
-        self._task = Task(f"reading the times of {path.name}", partial(_read, path, self._state))
-        self._task.reported.connect(self._add)
-        self._task.ended.connect(self._finish)
-        self._task.start()
+        self._start(f"reading the times of {path.name}", partial(_read, path, self._state))
 
     def close(self) -> None:
         """Drop what is being read: the window closes, or another mesh is open."""
-        drop(self._task)
-        self._task = self._state = self._record = None
+        super().close()
+        self._state = self._record = None
         self.errors = ()
 
     def cancel(self) -> None:
@@ -110,20 +102,20 @@ class TimeReader(QObject):
             self.errors = tuple(self._found)
             self.ended.emit()
 
-    def _add(self, read: Iteration | FileError) -> None:
-        if isinstance(read, FileError):
-            self._found.append(read)
+    def _take(self, message: Iteration | FileError) -> None:
+        if isinstance(message, FileError):
+            self._found.append(message)
             return
         if self._record is None:
             self._record = begin_times(self._history, self._state)
-        self._history.add(self._record, read)
+        self._history.add(self._record, message)
         self._timeline.update_runs()
         self.progressed.emit()
 
-    def _finish(self) -> None:
-        if self._task.error is not None:
-            self._found.append(self._task.error)  # type: ignore[arg-type]  # `_read` raises no other error
-        self._task = self._state = self._record = None
+    def _finish(self, task: Task) -> None:
+        if task.error is not None:
+            self._found.append(task.error)  # type: ignore[arg-type]  # `_read` raises no other error
+        self._state = self._record = None
         self.errors = tuple(self._found)
         self.ended.emit()
 
