@@ -20,6 +20,7 @@ from hexmend_app.shell.window import Window
 from hexmend_app.state.tasks import task
 from hexmend_app.state.tasks.task import running
 from hexmend_app.theme.style import apply_style
+from hexmend_app.widgets.dialogs import questions
 from tests.app.driving import open_and_wait
 from tests.app.hosting import PlainHost
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
@@ -191,6 +192,7 @@ def separate_settings(settings):
         QSettings.setPath(form, QSettings.Scope.UserScope, str(settings))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
+        patch.setattr(questions, "_DELAY", PATIENCE)  # no dialog while something is waited for
         yield
 
 
