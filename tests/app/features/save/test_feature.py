@@ -50,11 +50,13 @@ def test_a_session_is_saved_in_place_and_its_mesh_in_any_format(window, qtbot, t
     assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     session.commands.pin(0, True)
+    window.refresh()
     with qtbot.waitSignal(session.saver.ended):
         window.action("save").trigger()
     assert not chosen.asked
     assert not session.document.modified
     chosen.path = str(tmp_path / "out.vtk")
+    window.refresh()
     with qtbot.waitSignal(session.saver.ended):
         window.action("save_as").trigger()
     assert all(f"(*{suffix})" in chosen.asked[0][3] for suffix in io.writable_suffixes())
