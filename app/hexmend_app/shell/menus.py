@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 from hexmend_app.feature import MENUS, Action, ButtonAppearance
 from hexmend_app.theme.style import icon
 from hexmend_app.translation import tr
+from hexmend_app.widgets.action_button import HoldButton
 
 
 class Menus:
@@ -64,7 +65,9 @@ class Menus:
             section = declared.section
             if declared.exclusive:
                 group.addAction(action)
-            if declared.tool:
+            if declared.held:
+                self._bar.addWidget(HoldButton(action))
+            elif declared.tool:
                 self._bar.addAction(action)
         if self._bar.actions() and not self._bar.actions()[-1].isSeparator():
             self._bar.addSeparator()

@@ -28,6 +28,8 @@ VIEW = (
     ("Select a hex and its nearest node", "click"),
     ("Hide a hex", "Ctrl+click"),
     ("Set the centre of rotation", "double click"),
+    ("Push the cutting plane", "drag its arrow, or the wheel over it"),
+    ("Rotate the cutting plane", "drag its ring"),
     ("Open the context menu", "right click"),
 )
 

@@ -1,4 +1,4 @@
-"""Button of an action."""
+"""Buttons of actions."""
 
 from __future__ import annotations
 
@@ -63,3 +63,34 @@ class ActionButton(QToolButton):
         self.setStatusTip("")  # it has a tooltip, and the row of panels is in the status bar
         if self._icon_name or self._role is not TEXT:
             self.setIcon(icon(self._icon_name or action.property("icon_name"), self._role))
+
+
+class HoldButton(QToolButton):
+    """Tool button that keeps a checkable action checked while it is pressed.
+
+    Parameters
+    ----------
+    action : QAction
+    """
+
+    def __init__(self, action: QAction):
+        super().__init__()
+        self._action = action
+        self.setAutoRaise(True)
+        self.pressed.connect(lambda: self._set(True))
+        self.released.connect(lambda: self._set(False))
+        action.changed.connect(self._show_action)
+        self._show_action()
+
+    def _set(self, on: bool) -> None:
+        if self._action.isChecked() is not on:
+            self._action.trigger()
+
+    def _show_action(self) -> None:
+        action = self._action
+        self.setEnabled(action.isEnabled())
+        self.setIcon(action.icon())
+        self.setText(action.iconText())
+        self.setToolTip(action.toolTip())
+        self.setAccessibleName(action.property("name"))
+        self.setAccessibleDescription(action.statusTip())

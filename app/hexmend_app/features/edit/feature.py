@@ -1,18 +1,24 @@
-"""Feature that undoes and redoes changes of the mesh."""
+"""Feature that undoes and redoes changes of the mesh, and shows the mesh before them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hexmend_app.feature import Action, Feature
+from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.translation import tr
 
 
 class FeatureEdit(Feature):
-    """Undoes and redoes changes of the mesh."""
+    """Undoes and redoes changes of the mesh, and shows the mesh before the last one."""
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._before: MeasuredMesh | None = None  # shown last by "Before"
+        self._after: MeasuredMesh | None = None  # shown when "Before" was switched on
 
     def actions(self) -> Iterable[Action]:
-        """Yield undo and redo, whose texts name the change."""
+        """Yield undo and redo, whose texts name the change, and the comparison with the mesh before it."""
         commands, document = self.session.commands, self.session.document
         yield Action(
             id="undo",
@@ -38,6 +44,43 @@ class FeatureEdit(Feature):
             enabled=lambda: self.session.editable and document.redo_title is not None,
             title=lambda: tr("&Redo {title}", title=tr(document.redo_title or "")).strip(),
         )
+        yield Action(
+            id="before",
+            text=tr("Show &before"),
+            menu="Edit",
+            keys="Y",
+            icon="compare-horizontal",
+            help=tr("Show the mesh before the last change or run, as long as the button is held; Y switches."),
+            tool=tr("Before"),
+            held=True,
+            handle=self._show_before,
+            checked=lambda: self._shows_before,
+            enabled=lambda: self._shows_before or self._state_before is not None,
+        )
+
+    @property
+    def _shows_before(self) -> bool:
+        return self._before is not None and self._before is self.session.document.now
+
+    @property
+    def _state_before(self) -> MeasuredMesh | None:
+        """State that the last change, or the run of the shown iteration, started from; None if there is none."""
+        document, run = self.session.document, self.session.run
+        if not document.is_open or (run.busy and run.following):
+            return None
+        shown = self.session.timeline.shown_iteration
+        if document.previews:
+            return document.recorded if shown is None else shown.record.start
+        return document.previous
+
+    def _show_before(self, on: bool) -> None:
+        document = self.session.document
+        if on and (before := self._state_before) is not None:
+            self._before, self._after = before, document.now
+            document.preview(before)
+        elif not on and self._shows_before:
+            document.preview(self._after)
+            self._before = self._after = None
 
     @property
     def _undo_title(self) -> str | None:

@@ -47,7 +47,7 @@ class FeatureOutcome(Feature):
             text=tr("Run summar&y"),
             menu="Smooth",
             section=1,
-            keys="Y",
+            keys="Shift+Y",
             icon="help-circle-outline",
             help=tr("Show why the run stopped, the remaining invalid hexes and what to try next."),
             handle=lambda: self.host.show_panel("outcome"),

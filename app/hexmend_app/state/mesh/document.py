@@ -296,6 +296,12 @@ class Document(QObject):
         """The state of the current change; a mesh is open."""
         return self._changes[self._at].state
 
+    @property
+    def previous(self) -> MeasuredMesh | None:
+        """The state before the current change; None if there is none, or it has other hexes."""
+        before = self._changes[self._at - 1].state if self._at > 0 else None
+        return before if before is not None and before.mesh.elements is self.recorded.mesh.elements else None
+
     def mark_saved(self, path: Path, state: MeasuredMesh | None = None) -> bool:
         """Mark a state as saved, by default the one shown, unless its mesh is no longer open.
 

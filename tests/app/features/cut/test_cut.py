@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QPushButton, QSlider, QWidget
 
 from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.picture import Box, Cut, CutStyle, Plane, Slab, Sphere
@@ -133,6 +134,50 @@ def test_handles_are_hidden_while_a_small_part_of_the_mesh_is_isolated(window, q
     window.session.view.end_isolation()
     window.refresh()
     assert window.canvas.plane.widget.GetEnabled()
+
+
+def handle_at(window, state):
+    """Move the pointer along two lines through the centre of the plane to the handle of a state; return the place."""
+    view, shape = window.canvas.interactor, window.canvas.plane.widget.GetRepresentation()
+    centre = seen_at(window, window.session.view.look.cut.planes[0].point)
+    for distance in range(0, 400, 3):
+        for x, y in ((0, -1), (1, 0), (-1, 0), (0, 1)):
+            place = centre + QPoint(x, y) * distance
+            move(view, place)
+            if view.rect().contains(place) and shape.GetRepresentationState() == state:
+                return place
+    raise AssertionError(state)
+
+
+@pytest.mark.slow
+def test_the_arrow_and_the_wheel_push_the_plane_and_the_ring_rotates_it(window, qtbot):
+    key(window, Qt.Key.Key_C)
+    choose(window, "Z")
+    window.session.view.set_snap(False)
+    window.canvas.draw_still()
+    view, shape = window.canvas.interactor, window.canvas.plane.widget.GetRepresentation()
+    heights = []
+
+    def plane():
+        window.refresh()
+        return window.session.view.look.cut.planes[0]
+
+    arrow = handle_at(window, shape.Rotating)
+    drag(view, arrow, arrow + QPoint(0, -30))
+    heights.append(plane().point[2])
+    place, camera = handle_at(window, shape.Rotating), window.canvas.viewport.camera.GetPosition()
+    for turn in (120, -120):
+        pixels, none = QPoint(), Qt.MouseButton.NoButton
+        phase, keys = Qt.ScrollPhase.NoScrollPhase, Qt.KeyboardModifier.NoModifier
+        event = QWheelEvent(QPointF(place), QPointF(place), pixels, QPoint(0, turn), none, keys, phase, False)
+        QApplication.sendEvent(view, event)
+        heights.append(plane().point[2])
+    assert heights[0] < heights[1] > heights[2] == pytest.approx(heights[0])
+    assert window.canvas.viewport.camera.GetPosition() == camera
+    assert plane().normal == pytest.approx((0, 0, 1))
+    ring = handle_at(window, shape.ResizeDiskRadius)
+    drag(view, ring, ring + QPoint(0, -30))
+    assert abs(plane().normal[2]) < 0.999
 
 
 def press_plane(window):

@@ -2,9 +2,10 @@
 
 import numpy as np
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QToolButton
 
 from hexmend_app.state.run.run_controller import Phase
-from tests.app.driving import click_until, key
+from tests.app.driving import click_until, key, named, run_to_end
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
@@ -19,3 +20,21 @@ def test_keys_undo_and_redo_a_run(window, qtbot):
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
     key(window, Qt.Key.Key_Z, CONTROL, SHIFT)
     assert window.session.document.now is after
+
+
+def test_before_shows_the_mesh_before_the_run_while_its_button_is_held_and_y_switches(window, qtbot):
+    document = window.session.document
+    start = document.now
+    button = named(window, QToolButton, "Show before")
+    assert not button.isEnabled()
+    run_to_end(window, qtbot, "laplacian", max_iterations=2)
+    result = document.now
+    qtbot.waitUntil(button.isEnabled)
+    qtbot.mousePress(button, Qt.MouseButton.LeftButton)
+    assert document.now is start
+    qtbot.mouseRelease(button, Qt.MouseButton.LeftButton)
+    assert document.now is result
+    for shown in (start, result):
+        key(window, Qt.Key.Key_Y)
+        assert document.now is shown
+    assert document.undo_title == "Laplacian"  # nothing was recorded
