@@ -66,7 +66,7 @@ def locked(window, qtbot, tmp_path):
 def test_the_key_shows_why_the_run_stopped(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
     run_to_end(window, qtbot, "laplacian", keep_last=True)
-    key(window, Qt.Key.Key_Y)
+    key(window, Qt.Key.Key_Y, Qt.KeyboardModifier.ShiftModifier)
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "Why Laplacian stopped" in outcome_texts(window)
     assert "no node moved further than 0.0001 mean edge lengths" in outcome_texts(window)
