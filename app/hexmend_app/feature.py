@@ -38,7 +38,6 @@ MENUS = (
     "View/Camera",
     "View/Up",
     "View/Panels",
-    "View/Theme",
     "Hex",
     "Compare",
     "Help",

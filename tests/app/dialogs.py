@@ -5,6 +5,7 @@ from collections.abc import Callable
 from PySide6.QtWidgets import QDialog
 
 from hexmend_app.features.pad.feature import PadDialog
+from hexmend_app.features.preferences.feature import PreferencesDialog
 from hexmend_app.shell.command_palette import CommandPalette, choice_entries, command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.shell.window_actions import KeysPage
@@ -26,6 +27,7 @@ DIALOGS: dict[str, Callable[[Window], QDialog]] = {
     "histogram": lambda window: window.features["histogram"].dialog(),
     "report": lambda window: window.features["export"].dialog("report"),
     "pad": _pad,
+    "settings": PreferencesDialog,
     "keys": lambda window: KeysPage(window.menus.declared(), window),
     "palette": _palette,
     "waiting": lambda window: waiting_dialog(window, "The file is being saved.", lambda: False, "Close anyway"),

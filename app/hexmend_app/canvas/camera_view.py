@@ -25,7 +25,7 @@ from hexmend_app.translation import tr
 _REST = 300
 
 #: Minimum width and height in pixels.
-_MIN_SIZE = (320, 240)
+_MIN_SIZE = (160, 120)
 
 
 #: Steps of a key: rotation in degrees, panning as a fraction of the picture height, and zoom factor.

@@ -21,7 +21,7 @@ ORDER = (
     "open", "save", "export", "session", "edit", "smooth", "timeline", "recipe", "target_surface", "appearance",
     "histogram", "quality", "hex_inspector", "node_step", "camera", "cut", "measure", "structure", "curves", "doctor",
     "pad", "pyvista_window", "tags", "outcome", "convergence", "side_views", "movement", "compare", "reproduce",
-    "theme", "help",
+    "preferences", "help",
 )  # fmt: skip
 
 #: Features that open and draw a mesh; they are built first, so that the first picture does not wait for the others.

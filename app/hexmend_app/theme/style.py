@@ -80,6 +80,8 @@ class _IconEngine(QIconEngine):
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         """Return the icon on a transparent background; `size` is in device pixels."""
         pixmap = QPixmap(size)
+        if pixmap.isNull():  # for a button whose height letters of twice the size have taken
+            return pixmap
         pixmap.fill(Qt.GlobalColor.transparent)
         painter = QPainter(pixmap)
         self.paint(painter, QRect(QPoint(0, 0), size), mode, state)

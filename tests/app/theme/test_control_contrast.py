@@ -5,8 +5,10 @@ from PySide6.QtCore import QPoint
 from PySide6.QtGui import QAction, QIcon, QPalette
 from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QMenu, QTextBrowser, QToolTip, QWidget
 
+from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import THEME
 from hexmend_app.theme.style import apply_style
+from hexmend_app.theme.theme_choice import ThemeChoice
 from tests.app.driving import turn
 from tests.app.theme.contrasts import BLOCK, DISABLED, TEXT, contrast, painted, text_contrast
 
@@ -127,10 +129,10 @@ def palette_faults(widget):
                     yield f"{group.name}: {text.name} on {ground.name}: {value:.2f}"
 
 
-@pytest.mark.parametrize("choice", ["light", "dark"])
+@pytest.mark.parametrize("choice", [ThemeChoice.LIGHT, ThemeChoice.DARK], ids=["light", "dark"])
 def test_palettes_of_all_widgets_of_the_window_are_legible(window, choice):
-    window.window_actions[f"theme_{choice}"].trigger()
-    assert THEME.dark is (choice == "dark")
+    theme_choice.choose(choice)
+    assert THEME.dark is (choice is ThemeChoice.DARK)
     turn()
     widgets = [window, *window.findChildren(QWidget)]
     assert len(widgets) > 200
@@ -139,5 +141,5 @@ def test_palettes_of_all_widgets_of_the_window_are_legible(window, choice):
         for widget in widgets
         for fault in palette_faults(widget)
     }
-    window.window_actions["theme_light"].trigger()
+    theme_choice.choose(ThemeChoice.LIGHT)
     assert not faults

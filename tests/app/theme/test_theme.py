@@ -140,10 +140,10 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, d
     np.testing.assert_array_equal(seen(switched), seen(new))
 
 
-def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
+def test_the_theme_is_switched_and_remembered(window, qtbot):
     light = pixels(window)
     ground = light[5, 5]
-    window.window_actions["theme_dark"].trigger()
+    theme_choice.choose(ThemeChoice.DARK)
     assert THEME.dark
     assert theme_choice.chosen() is ThemeChoice.DARK
     assert QSettings().value("theme") == "dark"
@@ -153,9 +153,7 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     scene = Scene(page=Page(pixels=(400, 300)))
     report = np.asarray(draw_page(scene, [PageMesh.of(now.mesh)]).image())
     assert report[2, 2].tolist() == [255, 255, 255]  # white in both themes
-    on = [choice for choice in ThemeChoice if window.window_actions[f"theme_{choice.value}"].isChecked()]
-    assert on == [ThemeChoice.DARK]
-    window.window_actions["theme_light"].trigger()
+    theme_choice.choose(ThemeChoice.LIGHT)
     assert not THEME.dark
     qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light)
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
@@ -171,7 +169,7 @@ def test_the_theme_follows_the_desktop_until_one_is_selected(window, monkeypatch
     scheme = Qt.ColorScheme.Light
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark
-    window.window_actions["theme_light"].trigger()
+    theme_choice.choose(ThemeChoice.LIGHT)
     scheme = Qt.ColorScheme.Dark
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark

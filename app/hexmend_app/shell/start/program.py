@@ -46,6 +46,10 @@ def application() -> QApplication:
     QApplication.setApplicationDisplayName("Hexmend")
     QApplication.setDesktopFileName("hexmend")
     QApplication.setWindowIcon(QIcon(str(resource("icon.svg"))))
+    if app.property("dark") is None:  # without a style yet
+        font = QApplication.font()
+        font.setPointSizeF(font.pointSizeF() * settings.LETTERS.get() / 100)
+        QApplication.setFont(font)
     apply_theme()
     if app.findChild(UiThreadGC) is None:
         UiThreadGC(app)
@@ -74,10 +78,16 @@ def open_window(mesh: str | None = None) -> int:
     wake_up.timeout.connect(lambda: None)
     window.show()
     app.processEvents()  # show it before the slow imports
-    WindowStart(window, Path(mesh) if mesh else demo_mesh())
+    WindowStart(window, Path(mesh) if mesh else first_mesh())
     status = app.exec()
     end_with_threads(status)
     return status
+
+
+def first_mesh() -> Path:
+    """Return what a start without a file opens: the last file, if so set and it exists, or the demo mesh."""
+    last = next(iter(settings.RECENT.get()), None) if settings.REOPEN.get() else None
+    return last if last is not None and last.exists() else demo_mesh()
 
 
 def end_with_threads(status: int) -> None:

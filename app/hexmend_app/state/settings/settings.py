@@ -83,6 +83,12 @@ PANELS: Setting[dict[str, Any]] = Setting("panels", {}, dict[str, Any])
 #: One of `hexmend_app.theme.theme_choice.ThemeChoice`.
 THEME = Setting("theme", "desktop", str)
 
+#: Size of the letters of the window in per cent.
+LETTERS = Setting("letters", 100, Annotated[int, Meta(ge=80, le=200)])
+
+#: The last mesh is opened at the start of the program.
+REOPEN = Setting("reopen", False, bool)
+
 #: Recently opened files, newest first.
 RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), tuple[Path, ...], is_json=True)
 
