@@ -56,7 +56,7 @@ class HistogramPlot(QWidget):
         self.view = MouseView()
         self.view.setCursor(Qt.CursorShape.CrossCursor)
         self.plot = calm_plot(self.view)
-        self.plot.setMinimumHeight(110)
+        self.plot.setMinimumHeight(70)
         self.plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 2)
         self.histogram: Histogram | None = None
         self._axes: tuple[Any, ...] = ()  # what the axes show
