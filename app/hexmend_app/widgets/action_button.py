@@ -77,6 +77,7 @@ class HoldButton(QToolButton):
         super().__init__()
         self._action = action
         self.setAutoRaise(True)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # as the other buttons of a tool bar
         self.pressed.connect(lambda: self._set(True))
         self.released.connect(lambda: self._set(False))
         action.changed.connect(self._show_action)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QTimer, QUrl, Signal
@@ -12,7 +13,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePol
 
 from hexmend_app.theme.palette import AMBER, BLUE, WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, set_variant, tool_button
+from hexmend_app.theme.style import icon, on_theme_change, set_help, set_variant, tool_button
 from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
@@ -49,8 +50,8 @@ class MessageBar(QFrame):
 
     Attributes
     ----------
-    title, text : QLabel
-        Title and text of the message shown.
+    title, text : str
+        Title and text of the message shown, which flow in one paragraph.
 
     Signals
     -------
@@ -65,15 +66,14 @@ class MessageBar(QFrame):
         self._messages: list[_Message] = []  # oldest first
         self.setObjectName("message_bar")
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-        self._icon, self.title, self.text = QLabel(), QLabel(), QLabel()
-        for label in (self.title, self.text):
-            label.setTextFormat(Qt.TextFormat.PlainText)
-            label.setTextInteractionFlags(
-                Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
-            )
-            label.setMinimumWidth(80)
-        self.title.setFont(bold(self.title.font()))
-        self.text.setWordWrap(True)
+        self.title = self.text = ""
+        self._icon, self._sentences = QLabel(), QLabel()
+        self._sentences.setTextFormat(Qt.TextFormat.RichText)
+        self._sentences.setTextInteractionFlags(
+            Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+        )
+        self._sentences.setMinimumWidth(160)
+        self._sentences.setWordWrap(True)
         self._copy, self._dismiss = tool_button("content-copy"), tool_button("close")
         self._copy.clicked.connect(self._copy_message)
         self._dismiss.clicked.connect(self.dismiss)
@@ -82,8 +82,8 @@ class MessageBar(QFrame):
         self._timer = QTimer(self, singleShot=True)
         self._timer.timeout.connect(self.dismiss)
         self._choices = fill(QHBoxLayout())
-        parts = (self._icon, self.title, self.text, self._choices, self._copy, self._dismiss)
-        self._row = fill(QHBoxLayout(self), *parts, margins=(8, 2, 4, 2))
+        parts = (self._icon, (self._sentences, 1), self._choices, self._copy, self._dismiss)
+        fill(QHBoxLayout(self), *parts, margins=(8, 2, 4, 2))
         self._refresh()
         on_theme_change(self, self._paint)
 
@@ -195,15 +195,11 @@ class MessageBar(QFrame):
         set_help(self._dismiss, tr("Dismiss message"), help)
         self._paint()
         self._icon.setAccessibleName(tr(message.kind))
-        self.title.setText(message.title)
-        self.title.setWordWrap(not message.text)
-        self._row.setStretchFactor(self.title, 0 if message.text else 1)
-        self._row.setStretchFactor(self.text, 1)
         long = len(message.text) > _MAX_SHOWN
-        self.text.setText(
-            tr("{text}… (Copy copies the full text.)", text=message.text[:_MAX_SHOWN]) if long else message.text
-        )
-        self.text.setVisible(bool(message.text))
+        self.title = message.title
+        self.text = tr("{text}… (Copy copies the full text.)", text=message.text[:_MAX_SHOWN]) if long else message.text
+        title, text = (escape(part).replace("\n", "<br>") for part in (self.title, self.text))
+        self._sentences.setText(f"<b>{title}</b>&ensp;{text}" if text else title)
         clear(self._choices)
         for text, choice in message.choices:
             button = QPushButton(text)

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QVBoxLayout, QWidget
 
 from hexmend.parameters import Parametrised, declared, parameter
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.settings.settings import LETTERS, REOPEN, THEME
+from hexmend_app.state.settings.settings import LETTERS, REOPEN, THEME, Setting
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.theme_choice import ThemeChoice
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
-_STORED = {"theme": THEME, "letters": LETTERS, "reopen": REOPEN}
+_STORED: dict[str, Setting[Any]] = {"theme": THEME, "letters": LETTERS, "reopen": REOPEN}
 
 
 @dataclass(frozen=True)

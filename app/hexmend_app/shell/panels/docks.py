@@ -34,7 +34,7 @@ _COLUMN_SHARE, _MINIMUM_COLUMN = 0.195, 256
 _TOOLS_SHARE, _DRAWER = 0.6, 260
 
 #: Minimum size of the view in pixels.
-_MINIMUM_VIEW = (320, 160)
+_MINIMUM_VIEW = (320, 240)
 
 
 class Docks(QObject):

@@ -260,8 +260,8 @@ def test_the_doctor_is_heard_on_the_card(window, qtbot, tmp_path):
                  np.concatenate([mesh.hexes, mesh.hexes + mesh.n_nodes]))  # fmt: skip
     io.write(tmp_path / "blocks.vtu", twice)
     open_and_wait(qtbot, window, tmp_path / "blocks.vtu")
-    assert window.messages.title.text().startswith("blocks.vtu: 54 hexes, 0 inverted, 0 invalid")
-    qtbot.waitUntil(lambda: "The doctor found" in window.messages.text.text())
+    assert window.messages.title.startswith("blocks.vtu: 54 hexes, 0 inverted, 0 invalid")
+    qtbot.waitUntil(lambda: "The doctor found" in window.messages.text)
 
 
 # Opening a picture of several meshes restores all of them, or reports which are missing.

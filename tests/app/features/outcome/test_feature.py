@@ -123,7 +123,7 @@ def test_locked_hexes_are_listed_and_isolated(window, qtbot, locked):
 def test_it_says_what_a_run_has_changed_and_undoes_it(window, qtbot):
     start = window.session.document.now
     run_to_end(window, qtbot, "mend")
-    title, text = window.messages.title.text(), window.messages.text.text()
+    title, text = window.messages.title, window.messages.text
     counts = rf"{start.summary.inverted} → 0 inverted · {start.summary.invalid} → 0 invalid"
     pattern = rf"{counts} · q min 0\.\d{{4}} · scaled Jacobian min 0\.\d{{4}}"
     assert re.fullmatch(pattern, title)

@@ -38,8 +38,8 @@ def test_the_mesh_is_padded_and_undone(window, session, qtbot, choice):
     now = pad(qtbot, session, choice)
     assert now.summary.inverted == 0
     assert session.document.undo_title == "pad"
-    assert window.messages.title.text() == "1 → 0 inverted"
-    assert "The layer has" in window.messages.text.text()
+    assert window.messages.title == "1 → 0 inverted"
+    assert "The layer has" in window.messages.text
     np.testing.assert_array_equal(
         now.mesh.points[: before.mesh.n_nodes][before.mesh.fixed], before.mesh.points[before.mesh.fixed]
     )
@@ -57,7 +57,7 @@ def test_a_layer_that_cannot_be_closed_is_reported(window, session, qtbot):
     with qtbot.waitSignal(session.padder.failed):
         session.commands.pad(PaddingChoice("one"))
     assert session.document.now is before
-    assert "cannot be closed" in window.messages.text.text()
+    assert "cannot be closed" in window.messages.text
 
 
 @pytest.mark.slow

@@ -4,7 +4,6 @@ import sys
 from subprocess import run
 
 import pytest
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox
 
 from hexmend_app.features.preferences.feature import PreferencesDialog
@@ -29,7 +28,9 @@ def dialog(qtbot, tmp_path):
 
 
 def test_a_theme_is_applied_at_once(dialog):
-    QTest.keyClicks(named(dialog, QComboBox, "Theme"), "Dark")
+    box = named(dialog, QComboBox, "Theme")
+    box.setCurrentText("Dark")
+    box.activated.emit(box.currentIndex())
     assert theme_choice.chosen() is ThemeChoice.DARK
     assert THEME.dark
 

@@ -75,11 +75,11 @@ def test_a_message_says_that_pyvistaqt_is_missing(window, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyvistaqt", None)
     monkeypatch.delitem(sys.modules, show_in.__module__)
     window.action("pyvista_window").trigger()
-    assert "pip install" in window.messages.text.text()
+    assert "pip install" in window.messages.text
 
 
 def test_a_message_says_that_nothing_is_shown(window):
     window.session.view.change(cut=Cut.at((0, 0, 1), (0, 0, -1e6), CutStyle.SMOOTH))
     window.refresh()
     window.action("pyvista_window").trigger()
-    assert "shows no hexes" in window.messages.text.text()
+    assert "shows no hexes" in window.messages.text

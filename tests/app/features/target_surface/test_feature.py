@@ -78,5 +78,5 @@ def test_a_surface_that_does_not_fit_is_refused(window, stl, tmp_path):
     before = window.session.document.now
     for name, problem in (("far.stl", "mean edge lengths or more from it"), ("none.stl", "no such file")):
         assert not window.features["target_surface"].choose(tmp_path / name)
-        assert problem in window.messages.text.text()
+        assert problem in window.messages.text
         assert window.session.document.now is before

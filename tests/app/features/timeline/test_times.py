@@ -43,5 +43,5 @@ def test_times_are_stepped_through_by_name(opened):
 
 
 def test_a_message_names_the_times_left_out(opened):
-    assert opened.messages.title.text() == "1 time of the case skipped"
-    assert opened.messages.text.text().startswith("t = 0.01: ")
+    assert opened.messages.title == "1 time of the case skipped"
+    assert opened.messages.text.startswith("t = 0.01: ")
