@@ -16,7 +16,7 @@ from hexmend_app.scene.colour.colouring import Colouring, SpecialColour
 from hexmend_app.scene.page.lettering import name_entries
 from hexmend_app.theme.palette import LINE, MUTED, TEXT
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import set_help, set_variant, smaller, tabular
+from hexmend_app.theme.style import on_theme_change, set_help, set_variant, smaller, tabular
 from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
@@ -37,9 +37,12 @@ class ColourBar(QFrame):
     -------
     special_clicked(str)
         The user clicked on the swatch of the special colour with this name.
+    material_clicked(int)
+        The user clicked on the name of the material with this number.
     """
 
     special_clicked = Signal(str)
+    material_clicked = Signal(int)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -53,11 +56,13 @@ class ColourBar(QFrame):
         self._names.setTextFormat(Qt.TextFormat.RichText)
         self._names.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._names.setMinimumHeight(20)  # fits into small views
+        self._names.linkActivated.connect(lambda number: self.material_clicked.emit(int(number)))
         self.swatches: list[QToolButton] = []
         self._layout = fill(
             QVBoxLayout(self), self._title, (self._gradient, 1), (self._names, 1), margins=(8, 8, 8, 4), spacing=4
         )
         self.show_colouring(Colouring("q(H)", 0.0, 1.0, COLOUR_MAPS[DEFAULT_MAP].table))
+        on_theme_change(self._names, self._show_names)  # links have a colour of their own
 
     def show_colouring(self, colouring: Colouring, counts: Sequence[int] = ()) -> None:
         """Show a colouring, and the numbers of hexes with its special colours, by default none."""
@@ -65,11 +70,7 @@ class ColourBar(QFrame):
         self._gradient.colouring = colouring
         self._gradient.setVisible(not colouring.names)
         self._gradient.update()
-        rows = name_entries(colouring.names, colouring.table, _MAX_ROWS) if colouring.names else []
-        self._names.setText("<br>".join(
-            (f'<span style="color: rgb{colour}">■</span> ' if colour else "") + escape(name) for name, colour in rows
-        ))  # fmt: skip
-        self._names.setVisible(bool(rows))
+        self._show_names()
         kinds = colouring.special_colours
         while len(self.swatches) < len(kinds):
             self._add_swatch()
@@ -78,6 +79,17 @@ class ColourBar(QFrame):
         for number, swatch in enumerate(self.swatches):
             swatch.setVisible(number < len(kinds))
         self._describe()
+
+    def _show_names(self) -> None:
+        """Show the names of the materials, each as a link."""
+        colouring, style = self._gradient.colouring, f"color: {TEXT}; text-decoration: none"
+        rows = name_entries(colouring.names, colouring.table, _MAX_ROWS) if colouring.names else []
+        self._names.setText("<br>".join(
+            f'<a href="{at}" style="{style}"><span style="color: rgb{colour}">■</span> {escape(name)}</a>'
+            if colour else escape(name)
+            for at, (name, colour) in enumerate(rows)
+        ))  # fmt: skip
+        self._names.setVisible(bool(rows))
 
     def _add_swatch(self) -> None:
         """Add a button that isolates the hexes with its colour; it is disabled if there are none."""
@@ -98,8 +110,8 @@ class ColourBar(QFrame):
         colouring = self._gradient.colouring
         if colouring.names:
             help = tr(
-                "Each material has a colour. Inverted hexes are magenta, those that are invalid inside light magenta; "
-                "both are outlined."
+                "Each material has a colour; a click on its name shows only its hexes. Inverted hexes are magenta, "
+                "those that are invalid inside light magenta; both are outlined."
             )
             set_help(self, tr("Legend of materials"), help)
             self.setAccessibleDescription(tr("Materials: {names}", names=", ".join(colouring.names)))

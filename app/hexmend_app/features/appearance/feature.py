@@ -5,11 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable
 
+import numpy as np
+
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.displacement import Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
+from hexmend_app.scene.colour.material_colours import material_values
 from hexmend_app.scene.geometry.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
@@ -58,8 +61,9 @@ class FeatureAppearance(Feature):
         )
 
     def canvas_ready(self) -> None:
-        """Connect the colour bar, whose special swatches isolate hexes."""
+        """Connect the colour bar, whose special swatches and names of materials isolate hexes."""
         self.canvas.colour_bar.special_clicked.connect(self._isolate)
+        self.canvas.colour_bar.material_clicked.connect(self._isolate_material)
 
     def refresh(self) -> None:
         """Draw the current mesh, and show the present look in the panel."""
@@ -104,6 +108,10 @@ class FeatureAppearance(Feature):
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
         self._view.isolate(hexes_of_group(kind, now.mesh, now.quality, self._movement))
+
+    def _isolate_material(self, number: int) -> None:
+        materials = material_values(self.session.document.now.mesh)
+        self._view.isolate(np.flatnonzero(materials == number).tolist(), rings=0)
 
     @property
     def _movement(self) -> Displacement | None:

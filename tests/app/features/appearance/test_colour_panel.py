@@ -14,7 +14,7 @@ from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import brought, heard_from, key, named, pixels, press, type_text, walk_to
+from tests.app.driving import brought, heard_from, key, named, open_mesh, pixels, press, type_text, walk_to
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -219,3 +219,15 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, front_panel):
     assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
     press(named(front_panel, QAbstractButton, "Range: Pinned"))
     assert window.session.view.look.colours.range == (low.value(), high.value())
+
+
+@pytest.mark.slow
+def test_a_click_on_a_material_in_the_legend_shows_only_its_hexes(window, qtbot, tmp_path):
+    mesh = make("materials", size=200)
+    open_mesh(qtbot, window, tmp_path / "two.vtu", mesh)
+    window.features["appearance"].panel.choose_metric("material")
+    window.refresh()
+    names = next(label for label in window.canvas.colour_bar.findChildren(QLabel) if ">■</span> ball" in label.text())
+    QTest.mouseClick(names, _LEFT, pos=QPoint(30, names.fontMetrics().lineSpacing() // 2))
+    balls = np.flatnonzero(mesh.materials.of_hex == mesh.materials.names.index("ball"))
+    assert window.session.view.look.show.isolate.hexes == tuple(balls)
