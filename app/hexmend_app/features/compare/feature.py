@@ -18,6 +18,7 @@ from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.state.run.comparison import MethodResult
+from hexmend_app.state.run.run_setup import rules_text, settings_text
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_to_save
 from hexmend_app.widgets.wording import counted, duration
@@ -135,7 +136,10 @@ class FeatureCompare(Feature):
         values = {one.key: getattr(row, one.key, None) for one in LINES} | {"kept": row.kept}
         record = values | (_mesh_values(state, norm) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
-        return ComparisonRow(name, f"<b>{tr(method.title)}</b><br>{row.message}", record, state is not None, shown)
+        recipe = None if state is None else self._comparison.recipe_of(state)
+        settings = "" if recipe is None else "; ".join(filter(None, (settings_text(recipe), rules_text(recipe.rules))))
+        help = f"<b>{tr(method.title)}</b><br>{escape(settings)}<br>{row.message}"
+        return ComparisonRow(name, help, record, state is not None, shown)
 
     def _show_status(self) -> None:
         comparison, progress = self._comparison, self._comparison.progress

@@ -41,6 +41,8 @@ def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compa
         assert record["q_min"] == one.after.q_min
         assert record["inverted"] == one.after.inverted
         assert record["iterations"] == 4
+        help = model(compared).index(row(compared, one.method), METHOD).data(Qt.ItemDataRole.ToolTipRole)
+        assert f"{one.method} max_iterations=4" in help
     assert [one.name for one in model(compared).rows[:4]] == ["initial", "getme", "laplacian", "local-sd"]
     corner = compared.statusBar()
     assert named(corner, QLabel, "Counts").isVisible()  # the table does not cover the counts
