@@ -66,11 +66,12 @@ class Overlay(QObject):
         return super().eventFilter(watched, event)
 
     def _insert_in_tab_order(self) -> None:
-        """Insert the controls of the widget into the tab order, after the widget below."""
+        """Insert the controls of all overlays into the tab order, after the widget below, from the top down."""
         tabs = Qt.FocusPolicy.TabFocus
         before = self._over
         if before.focusPolicy() & tabs:
-            for part in self._widget.findChildren(QWidget):
-                if part.focusPolicy() & tabs:
-                    QWidget.setTabOrder(before, part)
-                    before = part
+            for overlay in sorted(before.findChildren(Overlay), key=lambda one: one._place[::-1]):
+                for part in overlay._widget.findChildren(QWidget):
+                    if part.focusPolicy() & tabs:
+                        QWidget.setTabOrder(before, part)
+                        before = part
