@@ -17,6 +17,8 @@ OTHERS = {
     "GEOMETRY": QByteArray(b"\0\1here"),
     "PANELS": {"hidden": True, "closed": ["tags"], "all": QByteArray(b"\0\1")},
     "THEME": "dark",
+    "LETTERS": 150,
+    "REOPEN": True,
     "RECENT": (Path("/a/b c.vtu"), Path("/ä.vtk")),
     "FOLDER": Path("/somewhere"),
     "HISTORY_MEGABYTES": 128,
