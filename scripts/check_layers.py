@@ -46,6 +46,7 @@ APP = [
     {"canvas"},
     {"host"},
     {"feature"},
+    {"chart_feature"},
     {"features"},
     {"shell"},
     {"cli", "notebook"},

@@ -87,7 +87,7 @@ class Action:
         Returns the current text, icon and help on buttons, if they change.
     tool : str
         Text in the tool bar; "" to omit it there.
-    held : bool
+    momentary : bool
         The button in the tool bar keeps the action checked only while it is pressed.
     needs_mesh : bool
         The action is disabled while no mesh is open.
@@ -113,7 +113,7 @@ class Action:
     title: Callable[[], str] | None = None
     appearance: Callable[..., ButtonAppearance] | None = None
     tool: str = ""
-    held: bool = False
+    momentary: bool = False
     needs_mesh: bool = True
     section: int = 0
     exclusive: bool = False

@@ -65,7 +65,7 @@ class Menus:
             section = declared.section
             if declared.exclusive:
                 group.addAction(action)
-            if declared.held:
+            if declared.momentary:
                 self._bar.addWidget(HoldButton(action))
             elif declared.tool:
                 self._bar.addAction(action)

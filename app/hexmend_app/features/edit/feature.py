@@ -52,7 +52,7 @@ class FeatureEdit(Feature):
             icon="compare-horizontal",
             help=tr("Show the mesh before the last change or run, as long as the button is held; Y switches."),
             tool=tr("Before"),
-            held=True,
+            momentary=True,
             handle=self._show_before,
             checked=lambda: self._shows_before,
             enabled=lambda: self._shows_before or self._state_before is not None,

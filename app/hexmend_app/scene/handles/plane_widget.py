@@ -52,8 +52,8 @@ class PlaneWidget(Handles):
         widget.SetRepresentation(shape)
         super().__init__(pane, widget)
         self._wheel = [
-            widget.GetInteractor().AddObserver(f"MouseWheel{way}Event", partial(self._bump, by), _BEFORE_ZOOMING)
-            for way, by in (("Forward", 1), ("Backward", -1))
+            widget.GetInteractor().AddObserver(f"MouseWheel{direction}Event", partial(self._bump, by), _BEFORE_ZOOMING)
+            for direction, by in (("Forward", 1), ("Backward", -1))
         ]
 
     def set_dark(self, dark: bool) -> None:

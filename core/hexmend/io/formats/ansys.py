@@ -143,7 +143,7 @@ def _read_elements(model: DeckModel, block: _Block, types: dict[int, int]) -> No
             continue
         name = f"elements of type {number}"
         model.others[name] += int(own.sum())
-        model.held[name].append(nodes[own].ravel())
+        model.fixed[name].append(nodes[own].ravel())
         if number in _CONTACT:
             model.joining.append(name)
 
@@ -157,7 +157,7 @@ def _add_solids(model: DeckModel, block: _Block, rows: np.ndarray, head: np.ndar
 
     partial = (nodes[:, :8] != 0).all(axis=1) & (head[:, _N_NODES] > 10) & (nodes == 0).any(axis=1)
     if partial.any():
-        model.held["solids without some of their mid-nodes"].append(nodes[partial, 8:].ravel())
+        model.fixed["solids without some of their mid-nodes"].append(nodes[partial, 8:].ravel())
         nodes = np.where(partial[:, None] & (np.arange(20) >= 8), 0, nodes)
     left = len(nodes)
     for kind, which, own in solids_by_width(nodes, _KINDS):

@@ -73,7 +73,7 @@ def read(path: Path) -> Mesh:
             model.joining.append("contact")
         else:
             for _, lines in _entries(files, name, begin, body).values():
-                model.held[name].append(lines.cards((1, 1)).integers(0, 2).ravel())
+                model.fixed[name].append(lines.cards((1, 1)).integers(0, 2).ravel())
     return to_mesh(path, model.content(lambda number: model.part_names.get(number, "")))
 
 
@@ -114,7 +114,7 @@ def _read_elements(model: DeckModel, entries: dict[str, tuple[np.ndarray, CardLi
         kind = _KINDS.get((type or name).lower())
         if kind is None:
             model.others[f"elements {type or name}"] += len(ids)
-            model.held[type or name].append(
+            model.fixed[type or name].append(
                 np.array(re.findall(r"\d+", " ".join(lines.texts())), "S18").astype(np.int64)
             )
             continue

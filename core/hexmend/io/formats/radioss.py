@@ -110,8 +110,8 @@ def _read_block(model: DeckModel, lines: CardLines) -> None:
             model.joining.append(f"/{name}")
         if name in _HOLDING:
             first, low, high = _HOLDING[name]
-            held = lines.rows(slice(first, first + 1 if first else None)).filled().cards(_COLUMNS)
-            model.held[f"/{name}"].append(held.integers(low, high).ravel())
+            cards = lines.rows(slice(first, first + 1 if first else None)).filled().cards(_COLUMNS)
+            model.fixed[f"/{name}"].append(cards.integers(low, high).ravel())
 
 
 def _read_elements(model: DeckModel, lines: CardLines, name: str, part: int) -> None:
@@ -129,7 +129,7 @@ def _read_elements(model: DeckModel, lines: CardLines, name: str, part: int) -> 
         nodes[nodes[:, 3] == nodes[:, 2], 3] = 0
     partial = (nodes[:, min(kinds) :] != 0).any(axis=1) & ~nodes.all(axis=1) & (step > 1)
     if partial.any():  # a mid-node may be left out
-        model.held[f"/{name}"].append(nodes[partial].ravel())
+        model.fixed[f"/{name}"].append(nodes[partial].ravel())
         nodes[partial, min(kinds) :] = 0
     n_left = len(nodes)
     for kind, which, own in solids_by_width(nodes, kinds):

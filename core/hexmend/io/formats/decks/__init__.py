@@ -1,1 +1,1 @@
-"""What the readers of decks of cards share: fields of lines, nodes and elements by their numbers, and coordinates."""
+"""Parts that the readers of decks of cards share: fields of lines, nodes and elements by number, and coordinates."""

@@ -19,7 +19,7 @@ from hexmend.terminal_text import count_phrase
 
 
 class DeckModel:
-    """What the cards of a deck have defined so far.
+    """Nodes, elements and sets that the cards of a deck have defined so far.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ class DeckModel:
     sets : dict of str to dict of str to list of arrays
         Members of each set of "nodes", "elements", "solids" and "faces" by its name: numbers (k,), first and last
         ones (k, 2), or nodes of faces (k, 4).
-    held : dict of str to list of (k,) int64
-        Numbers of nodes that stay, by the cards that hold them and are not read.
+    fixed : dict of str to list of (k,) int64
+        Numbers of nodes that stay, by the cards that fix them and are not read.
     others : Counter
         Cards that are not read.
     joining : list of str
@@ -53,7 +53,7 @@ class DeckModel:
         self.nodes: list[tuple[np.ndarray, np.ndarray]] = []
         self.part_names: dict[int, str] = {}
         self.sets: defaultdict[str, dict[str, list[np.ndarray]]] = defaultdict(dict)
-        self.held: defaultdict[str, list[np.ndarray]] = defaultdict(list)
+        self.fixed: defaultdict[str, list[np.ndarray]] = defaultdict(list)
         self.others: Counter[str] = Counter()
         self.joining: list[str] = []
         self.notes: list[str] = []
@@ -122,15 +122,15 @@ class DeckModel:
         hexes = [block.nodes[:, :8] for block in blocks if block.kind in HEX_KINDS]
         sides = {name: _sides(hexes, node_ids, parts) for name, parts in self.sets["faces"].items() if hexes}
         sides = {name: rows for name, rows in sides.items() if len(rows)}
-        held = [ids for lists in self.held.values() for ids in lists]
-        fixed = np.isin(node_ids, np.concatenate([*held, np.zeros(0, np.int64)]))
+        lists = [ids for each in self.fixed.values() for ids in each]
+        fixed = np.isin(node_ids, np.concatenate([*lists, np.zeros(0, np.int64)]))
         notes = list(self.notes)
         if self.others:
             words = some_names(f"{count:,} {quoted(name)[1:-1]}" for name, count in self.others.items())
             notes.append(unread_note(f"other cards ({words})"))
         if fixed.any():
             nodes = count_phrase(int(fixed.sum()), "node")
-            notes.append(f"{nodes} of {some_names(quoted(one)[1:-1] for one in self.held)} stay.")
+            notes.append(f"{nodes} of {some_names(quoted(one)[1:-1] for one in self.fixed)} stay.")
         fields, pinned = {CONTACT_CARDS: self.joining} if self.joining else {}, fixed if fixed.any() else None
         return Content(points, tuple(blocks), {ID: node_ids}, node_sets, sides, pinned, fields, tuple(notes))
 

@@ -91,7 +91,7 @@ class _Reader:
             first = next((field for one, field in _HOLDING.items() if name.startswith(one)), None)
             if first is not None:
                 nodes = keyword.cards(ELEMENT_COLUMNS).integers(first, first + 1 + (first == 2))
-                self.model.held[keyword.name].append(nodes.ravel())
+                self.model.fixed[keyword.name].append(nodes.ravel())
 
     def _read_elements(self, keyword: CardLines, base: str, option: str) -> None:
         if option not in _MORE_LINES:
