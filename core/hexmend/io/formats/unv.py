@@ -106,7 +106,7 @@ def _read_elements(model: DeckModel, lines: CardLines) -> None:
         nodes = numbers[places].reshape(len(own), -1)[:, :width]
         if not kind:
             model.others[f"elements of FE descriptor {descriptor}"] += len(own)
-            model.held[f"elements of FE descriptor {descriptor}"].append(nodes.ravel())
+            model.fixed[f"elements of FE descriptor {descriptor}"].append(nodes.ravel())
             continue
         if (numbers[own, 5] != width).any():
             raise lines.error(f"has elements of FE descriptor {descriptor} without {width} nodes", DAMAGED)

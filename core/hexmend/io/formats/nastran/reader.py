@@ -78,7 +78,7 @@ class BulkModel:
         first = NODES_OF_CARD.get(cards.name)
         if first is not None:
             fields = cards.fields(first, int((cards.ends - cards.begins).max()))
-            self._deck.held[cards.name].append(fields[np.strings.isdigit(fields)].astype(np.int64))
+            self._deck.fixed[cards.name].append(fields[np.strings.isdigit(fields)].astype(np.int64))
         if cards.name in JOINING or first is not None:
             self._deck.joining.append(cards.name)
 
@@ -132,7 +132,7 @@ class BulkModel:
             partial = f"{self._n_partial:,} elements have some of their mid-nodes only"
             deck.notes.append(f"{partial}: they are read with their corners only.")
         if self.systems.grid_points:
-            deck.held["coordinate systems"].append(np.array(list(self.systems.grid_points)))
+            deck.fixed["coordinate systems"].append(np.array(list(self.systems.grid_points)))
         deck.nodes.append((grid.ids, grid.points))
         content = deck.content(lambda number: f"property {number}" if number > 0 else "")
         used = np.zeros(len(grid.ids), dtype=bool)
