@@ -73,7 +73,9 @@ def walk_columns(
         side = meets.argmax(axis=1).astype(np.int8)
         ratio = lengths[following, side // 2] / lengths[current, entry // 2]
         flat = lengths[following, side // 2] < lateral_lengths(lengths[following], side, neighbours[following])
-        continues = (following >= 0) & (meets.sum(axis=1) == 1)  # a column returns only through hexes that meet twice
+        continues = (
+            (following >= 0) & (following != current) & (meets.sum(axis=1) == 1)
+        )  # a column returns only through hexes that meet twice
         continues &= flat & (ratio <= GREATEST_RATIO) & (ratio >= 1 / GREATEST_RATIO)
         active, current, entry = active[continues], following[continues], side[continues]
         if active.size:

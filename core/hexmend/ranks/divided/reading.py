@@ -164,7 +164,7 @@ def _part(
         hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     whole = Mesh(as_immutable_owned(x), as_immutable_owned(hexes), pinned=pins)
     fixed = ranks.complete(whole.fixed.astype(np.uint8)).astype(bool)  # a node's owner has all its hexes
-    mesh = Mesh(whole.points, whole.hexes).with_fixed(fixed)
+    mesh = Mesh.of_cells(whole.points, whole.hexes, fixed)
     part = RankPart(mesh, ranks, numbers.astype(np.int32), owned, counted, ranks.sum(int(counted.sum())))
     mesh._set(mean_edge_length=mean_edge_length(part, ids))
     return part
