@@ -43,16 +43,6 @@ def test_only_the_outside_of_a_refined_mesh_is_boundary(levels):
     assert not grid(3).topology.hanging.size
 
 
-def test_cells_that_are_halved_have_hanging_edges():
-    low, high = grid(1), grid(2, 1, 1)
-    points = np.concatenate([low.points, high.points * [0.5, 1, 1] + [0, 0, 1]])
-    points, number = np.unique(points, axis=0, return_inverse=True)
-    mesh = Mesh(points, number.reshape(-1)[np.concatenate([low.hexes, high.hexes + 8])])
-    assert len(mesh.topology.boundary_faces) == 6 * 3 - 4 - 2 + 1
-    np.testing.assert_array_equal(mesh.points[mesh.topology.hanging[:, 0]], [[0.5, 0, 1], [0.5, 1, 1]])
-    assert gaps(mesh) == 0
-
-
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_keeps_hanging_nodes_in_the_middle_and_improves(method):
     mesh = scrambled_within(octree(), 0.3, 1)

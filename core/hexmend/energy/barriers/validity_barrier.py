@@ -12,6 +12,7 @@ from hexmend.energy.norm import ObjectiveNorm
 from hexmend.energy.terms import ElementBlocks
 from hexmend.kernels import validity as kernels
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.solid_cells import kinds_of
 
 #: Places 0, 1/2 and 1 along each axis of the unit cube, (27, 3), x slowest.
 _LATTICE = np.stack(np.meshgrid(*[[0.0, 0.5, 1.0]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -28,10 +29,25 @@ def _along_three_axes(matrix: np.ndarray) -> np.ndarray:
 
 
 def _gradients() -> np.ndarray:
-    """Derivatives of the trilinear functions of the corners at the lattice, (27, 3, 8)."""
+    """Matrices by which the nodes of each kind give the matrices whose determinants are the values at the lattice.
+
+    These are J of hexes, and of other kinds what `native/mesh/validity.cpp` certifies, (kinds, 27, 3, 8).
+    """
     factors = np.where(UNIT_CUBE == 1, _LATTICE[:, None], 1 - _LATTICE[:, None])
     slopes = 2.0 * UNIT_CUBE - 1
-    return np.stack([slopes[:, k] * np.delete(factors, k, axis=2).prod(axis=2) for k in range(3)], axis=1)
+    hexes = np.stack([slopes[:, k] * np.delete(factors, k, axis=2).prod(axis=2) for k in range(3)], axis=1)
+    (u, v, w), one = _LATTICE.T, np.ones(len(_LATTICE))
+    u0, v0, w0 = 1 - _LATTICE.T
+    first, second, third = v0 * u0 + v * u, v0 * u, v * u0  # of the triangle's corners, at a point of the square
+    wedges, pyramids, tetrahedra = np.zeros((3, len(_LATTICE), 3, 8))
+    wedges[:, 0, [0, 1, 3, 4]] = np.stack([-w0, w0, -w, w], axis=1)
+    wedges[:, 1, [0, 2, 3, 5]] = np.stack([-w0, w0, -w, w], axis=1)
+    wedges[:, 2, :6] = np.stack([-first, -second, -third, first, second, third], axis=1)
+    pyramids[:, 0, :4] = np.stack([-v0, v0, v, -v], axis=1)
+    pyramids[:, 1, :4] = np.stack([-u0, -u, u, u0], axis=1)
+    pyramids[:, 2, :5] = np.stack([-u0 * v0, -u * v0, -u * v, -u0 * v, one], axis=1)
+    tetrahedra[:, :, 0], tetrahedra[:, range(3), range(1, 4)] = -1, 1
+    return np.stack([hexes, wedges, pyramids, tetrahedra])
 
 
 _GRADIENTS = _gradients()
@@ -50,6 +66,7 @@ class ValidityBarrier:
     Parameters
     ----------
     hexes : (k, 8) int32
+        Cells of any kinds.
     sizes : (k,) float64
         Greatest coefficient of each hex at first, in cubes of the energy's unit of length.
     floors : (k,) float64
@@ -128,9 +145,10 @@ class ValidityBarrier:
         z = np.minimum((self._relative(x) - self.floors[:, None]) / self.band, 1.0)
         first = self.weight / self.band * (2 - z - 1 / z)
         second = self.weight / self.band**2 * (1 / z**2 - 1)
-        maps = np.einsum("qdc,hcx->hqdx", _GRADIENTS, x[self.hexes])
+        gradients = _GRADIENTS[kinds_of(self.hexes)]
+        maps = np.einsum("hqdc,hcx->hqdx", gradients, x[self.hexes])
         cofactors = np.cross(maps[:, :, [1, 2, 0]], maps[:, :, [2, 0, 1]])
-        of_values = np.einsum("hqdx,qdc->hqcx", cofactors, _GRADIENTS)
+        of_values = np.einsum("hqdx,hqdc->hqcx", cofactors, gradients)
         by_nodes = np.einsum("iq,hqcx->hicx", _COEFFICIENTS, of_values) / self.sizes[:, None, None, None]
         return first, second, by_nodes
 

@@ -1,7 +1,7 @@
 """Faces that several faces of other cells cover, and the nodes that hang there.
 
-Two triangles cover a quad where hexes meet tetrahedra without pyramids between them; two or four quads cover one where
-the cells on one side are refined. The nodes in the middle of its edges and of the face hang: they are no corners of the
+Two triangles cover a quad where hexes meet tetrahedra without pyramids between them; four quads cover one where the
+cells on one side are refined. The nodes in the middle of its edges and of the face hang: they are no corners of the
 coarse cell.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import find_rows
-from hexmend.mesh.solid_cells import face_nodes
+from hexmend.mesh.solid_cells import face_nodes, kinds_of
 
 
 def close_split_faces(elements: np.ndarray, neighbours: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -34,21 +34,21 @@ def close_split_faces(elements: np.ndarray, neighbours: np.ndarray) -> tuple[np.
     nodes = face_nodes(elements, cells, faces)
     is_triangle = nodes[:, 2] == nodes[:, 3]
     triangles, quads = np.flatnonzero(is_triangle), np.flatnonzero(~is_triangle)
-    closed, hanging = [triangles[:0]], [np.zeros((0, 5), np.int32)]
-    if triangles.size and quads.size:
+    corners, parts, hanging = _in_four(nodes[quads])
+    coarse = _covered(nodes[quads], corners)
+    covers = np.flatnonzero(coarse >= 0)
+    nine = np.sort(np.hstack([hanging[covers, :, 0], corners[covers]]), axis=1)
+    covers = covers[(np.diff(nine, axis=1) > 0).all(axis=1)]
+    closed = [quads[coarse[covers]], quads[parts[covers]].ravel()]
+    if triangles.size and quads.size and kinds_of(elements).any():
         closed += _halved_by_triangles(nodes[triangles, :3], nodes[quads], triangles, quads)
-    for corners, parts, found in (_in_four(nodes[quads]), _in_two(nodes[quads])):
-        coarse = _covered(nodes[quads], corners)
-        covers = coarse >= 0
-        closed += [quads[coarse[covers]], quads[parts[covers]].ravel()]
-        hanging.append(found[covers].reshape(-1, 5))
     rows = np.concatenate(closed)
     if not rows.size:
-        return neighbours, hanging[0]
+        return neighbours, hanging[:0, 0]
     answer = neighbours.copy()
     answer[cells[rows], faces[rows]] = cells[rows]
-    every = np.concatenate(hanging)
-    return answer, every[np.unique(every[:, 0], return_index=True)[1]]
+    found = hanging[covers].reshape(-1, 5)
+    return answer, found[np.unique(found[:, 0], return_index=True)[1]]
 
 
 def _halved_by_triangles(
@@ -91,30 +91,6 @@ def _in_four(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     sides = np.stack([middles, corners, corners, after, after], axis=2)
     middle = np.column_stack([centre[count == 4][is_ring], corners])
     return corners, places >> 2, np.concatenate([middle[:, None], sides], axis=1)
-
-
-def _in_two(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Find the pairs of quads (k, 4) with a common edge; see `_in_four`, with two parts and (j, 2, 5) hanging nodes."""
-    start, end = quads.ravel(), np.roll(quads, -1, axis=1).ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    order = np.lexsort((high, low))
-    pair = np.flatnonzero((np.diff(low[order]) == 0) & (np.diff(high[order]) == 0))
-    one, other = order[pair], order[pair + 1]
-    opposed = start[one] == end[other]
-    one, other = one[opposed], other[opposed]
-
-    def at(place: np.ndarray, step: int) -> np.ndarray:
-        return start[place & ~3 | place + step & 3]
-
-    corners = np.stack([at(one, 2), at(one, 3), at(other, 2), at(other, 3)], axis=1)
-    hanging = np.stack(
-        [
-            np.column_stack([start[one], corners[:, [1, 1, 2, 2]]]),
-            np.column_stack([end[one], corners[:, [3, 3, 0, 0]]]),
-        ],
-        axis=1,
-    )
-    return corners, np.stack([one >> 2, other >> 2], axis=1), hanging
 
 
 def _covered(quads: np.ndarray, corners: np.ndarray) -> np.ndarray:
