@@ -34,7 +34,7 @@ def close_split_faces(elements: np.ndarray, neighbours: np.ndarray) -> tuple[np.
     nodes = face_nodes(elements, cells, faces)
     is_triangle = nodes[:, 2] == nodes[:, 3]
     triangles, quads = np.flatnonzero(is_triangle), np.flatnonzero(~is_triangle)
-    corners, parts, hanging = _in_four(nodes[quads])
+    corners, parts, hanging = quads_in_four(nodes[quads])
     coarse = _covered(nodes[quads], corners)
     covers = np.flatnonzero(coarse >= 0)
     nine = np.sort(np.hstack([hanging[covers, :, 0], corners[covers]]), axis=1)
@@ -63,7 +63,7 @@ def _halved_by_triangles(
     return closed
 
 
-def _in_four(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def quads_in_four(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the nodes at which four of the quads (k, 4) meet.
 
     Returns
