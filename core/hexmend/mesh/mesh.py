@@ -17,7 +17,7 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_cells
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
-from hexmend.mesh.solid_cells import same_solids
+from hexmend.mesh.solid_cells import count_cells, same_solids
 from hexmend.mesh.validation import check_finite, points_like
 from hexmend.summary import Summary
 from hexmend.terminal_text import count_phrase, printable
@@ -157,9 +157,9 @@ class Mesh(MeshMotion):
 
     def __repr__(self) -> str:
         name = f" {printable(self.name)}" if self.name else ""
-        hexes, nodes = count_phrase(self.n_hexes, "hex", "hexes"), count_phrase(self.n_nodes, "node")
+        cells, nodes = count_cells(self.elements), count_phrase(self.n_nodes, "node")
         known = self.__dict__.get("_invalid")  # once they have been counted
-        return f"<Mesh{name}: {hexes}, {nodes}{'' if known is None else f', {known:,} invalid'}>"
+        return f"<Mesh{name}: {cells}, {nodes}{'' if known is None else f', {known:,} invalid'}>"
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""
