@@ -15,8 +15,7 @@ from hexmend.hooks import hook
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_cells
-from hexmend.mesh.linear_motion import LinearMotion
-from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
+from hexmend.mesh.mesh_motion import NO_MOTION, SHARED, MeshMotion, TargetSurface
 from hexmend.mesh.solid_cells import count_cells, same_solids
 from hexmend.mesh.validation import check_finite, points_like
 from hexmend.summary import Summary
@@ -284,4 +283,4 @@ class Mesh(MeshMotion):
         -------
         Mesh
         """
-        return cls(points, elements).with_motion_of_rules(LinearMotion()).with_fixed(fixed)
+        return cls(points, elements).with_motion_of_rules(NO_MOTION).with_fixed(fixed)

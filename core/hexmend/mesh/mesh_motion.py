@@ -24,6 +24,8 @@ from hexmend.terminal_text import count_phrase
 SHARED = ("fixed", "free", "immovable", "embedded", "materials", "middles", "hanging_motion")
 #: Those that do not depend on the linear motion.
 _OF_RULES = ("materials", "embedded", "immovable", "hanging_motion")
+#: The linear motion of meshes that have none.
+NO_MOTION = LinearMotion()
 #: Corners of cells of dimension 0 to 2; others have four.
 _CORNERS = {"vertex": 1, "line": 2, "line3": 2, "triangle": 3, "triangle6": 3}
 
@@ -207,7 +209,8 @@ class MeshMotion(MeshData):
     @cached_property
     def hanging_motion(self) -> LinearMotion:
         """The linear motion of the hanging nodes of the topology; empty if there are none."""
-        return LinearMotion.between(self.topology.hanging)
+        rows = self.topology.hanging
+        return LinearMotion.between(rows) if len(rows) else NO_MOTION
 
     @property
     def _constraints(self) -> tuple[LinearMotion, np.ndarray]:

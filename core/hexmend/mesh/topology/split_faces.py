@@ -34,21 +34,23 @@ def close_split_faces(elements: np.ndarray, neighbours: np.ndarray) -> tuple[np.
     nodes = face_nodes(elements, cells, faces)
     is_triangle = nodes[:, 2] == nodes[:, 3]
     triangles, quads = np.flatnonzero(is_triangle), np.flatnonzero(~is_triangle)
-    corners, parts, hanging = quads_in_four(nodes[quads])
+    corners, parts, middles = quads_in_four(nodes[quads])
     coarse = _covered(nodes[quads], corners)
     covers = np.flatnonzero(coarse >= 0)
-    nine = np.sort(np.hstack([hanging[covers, :, 0], corners[covers]]), axis=1)
+    nine = np.sort(np.hstack([corners[covers], middles[covers]]), axis=1)
     covers = covers[(np.diff(nine, axis=1) > 0).all(axis=1)]
     closed = [quads[coarse[covers]], quads[parts[covers]].ravel()]
     if triangles.size and quads.size and kinds_of(elements).any():
         closed += _halved_by_triangles(nodes[triangles, :3], nodes[quads], triangles, quads)
     rows = np.concatenate(closed)
     if not rows.size:
-        return neighbours, hanging[:0, 0]
+        return neighbours, np.zeros((0, 5), np.int32)
     answer = neighbours.copy()
     answer[cells[rows], faces[rows]] = cells[rows]
-    found = hanging[covers].reshape(-1, 5)
-    return answer, found[np.unique(found[:, 0], return_index=True)[1]]
+    of_face, after = corners[covers], np.roll(corners[covers], -1, axis=1)
+    masters = np.concatenate([np.stack([of_face, of_face, after, after], axis=2), of_face[:, None]], axis=1)
+    hanging = np.concatenate([middles[covers][:, :, None], masters], axis=2).reshape(-1, 5)
+    return answer, hanging[np.unique(hanging[:, 0], return_index=True)[1]]
 
 
 def _halved_by_triangles(
@@ -72,8 +74,8 @@ def quads_in_four(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray
         Outer corners of the four, counter-clockwise.
     parts : (j, 4) int64
         Their numbers.
-    hanging : (j, 5, 5) int32
-        The node itself and those between the corners, each with its masters.
+    middles : (j, 5) int32
+        The nodes between each corner and the next, and the node itself.
     """
     flat = quads.ravel()
     order = np.argsort(flat, kind="stable")
@@ -86,11 +88,7 @@ def quads_in_four(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray
         turn[:, k + 1] = (flat[ahead] == end).argmax(axis=1)
     is_ring = (np.sort(turn, axis=1) == np.arange(4)).all(axis=1)
     places, across, behind = (np.take_along_axis(each, turn, axis=1)[is_ring] for each in (places, across, behind))
-    corners, middles = flat[across], flat[behind]
-    after = np.roll(corners, -1, axis=1)
-    sides = np.stack([middles, corners, corners, after, after], axis=2)
-    middle = np.column_stack([centre[count == 4][is_ring], corners])
-    return corners, places >> 2, np.concatenate([middle[:, None], sides], axis=1)
+    return flat[across], places >> 2, np.column_stack([flat[behind], centre[count == 4][is_ring]])
 
 
 def _covered(quads: np.ndarray, corners: np.ndarray) -> np.ndarray:
