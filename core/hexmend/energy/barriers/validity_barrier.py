@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Self
 
 import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.norm import ObjectiveNorm
-from hexmend.energy.terms import ElementBlocks
+from hexmend.energy.terms import ElementBlocks, Term
 from hexmend.kernels import validity as kernels
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.solid_cells import kinds_of
@@ -56,7 +55,7 @@ _COEFFICIENTS = _HALVED @ _along_three_axes(_BY_VALUES)
 
 
 @dataclass(frozen=True, eq=False)
-class ValidityBarrier:
+class ValidityBarrier(Term):
     """Sum of weight b((B - floor)/band) over the Bernstein coefficients B of det J of the eighths of some hexes.
 
     b(y) = -log y + (y - 1) - (y - 1)²/2 below y = 1, else 0, as of `FloorBarrier`. Coefficients are relative to
@@ -81,10 +80,6 @@ class ValidityBarrier:
     band: float
     weight: float
     blocks: ElementBlocks
-
-    #: It adds nothing to the energy of perfect hexes.
-    total_weight = 0.0
-    limits_moves = False
 
     @classmethod
     def of(cls, hexes: np.ndarray, x: np.ndarray, band: float, weight: float) -> ValidityBarrier:
@@ -118,10 +113,6 @@ class ValidityBarrier:
         z = np.minimum(y, 1.0) - 1
         return self.weight * float((-np.log1p(z) + z - z**2 / 2).sum())
 
-    def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Self:
-        """Raise `NotImplementedError`: it is made for what moves."""
-        raise NotImplementedError
-
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute the gradient by all nodes, (n, 3)."""
         first, _, by_nodes = self._derivatives(x)
@@ -132,9 +123,6 @@ class ValidityBarrier:
         """Add the Gauss-Newton part of the second derivatives, without derivatives of coefficients: semidefinite."""
         _, second, by_nodes = self._derivatives(x)
         self.blocks.add(np.einsum("hi,hicx,hidy->hcdxy", second, by_nodes, by_nodes), matrix)
-
-    def beyond(self, x: np.ndarray, there: np.ndarray) -> None:
-        """Return None: it limits no moves; see `hexmend.energy.terms.Term`."""
 
     def _relative(self, x: np.ndarray) -> np.ndarray:
         """Coefficients at points x (n, 3), (k, 125), relative to `sizes`."""
