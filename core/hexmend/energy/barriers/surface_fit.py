@@ -211,7 +211,7 @@ class SurfaceFit(Term):
         return other
 
     def _all(self, x: np.ndarray) -> np.ndarray:
-        """Positions of all nodes, (n, 3), by those of the part."""
+        """Positions of all nodes, (n, 3), from the positions of the nodes of the part."""
         if self._part is None:
             return x
         nodes, others = self._part

@@ -115,7 +115,7 @@ class Motion:
 
     @property
     def has_parts(self) -> bool:
-        """True if nodes move independently of each other: that of a part of the mesh has the same form."""
+        """True if nodes move independently of each other, so that parts of the mesh have motions of the same form."""
         return self.row is None and self.sliding is None
 
     def on_part(self, part: Mesh, nodes: np.ndarray) -> Motion:

@@ -94,7 +94,7 @@ def rows_without_hanging(elements: np.ndarray, hanging: np.ndarray, anchors: np.
 
 
 def _matches(wanted: np.ndarray, ascending: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of places of equal numbers in two arrays (k,) and (w,), of which the second ascends."""
+    """Find equal numbers in an array (k,) and an ascending array (w,): their places in both, (j,) int64 each."""
     first, end = (np.searchsorted(ascending, wanted, side) for side in ("left", "right"))
     count = end - first
     source = np.repeat(np.arange(wanted.size), count)
