@@ -10,13 +10,13 @@ from hexmend.mesh.mesh import Mesh
 _CORNERS = UNIT_CUBE.astype(int)
 
 
-def refined(mesh: Mesh) -> Mesh:
-    """Divide each hex into 2 x 2 x 2, by its trilinear map; the nodes of the mesh come first."""
+def refined(mesh: Mesh, chosen: np.ndarray | None = None) -> Mesh:
+    """Divide each hex, or those chosen (m,) bool, into 2 x 2 x 2, by its trilinear map; the mesh's nodes come first."""
     numbers: dict[tuple[int, ...], int] = {}
     for node in range(mesh.n_nodes):
         numbers[(node,)] = node
-    points, hexes = list(mesh.points), []
-    for nodes in mesh.hexes.tolist():
+    points, hexes = list(mesh.points), [] if chosen is None else mesh.hexes[~chosen].tolist()
+    for nodes in mesh.hexes[... if chosen is None else chosen].tolist():
         lattice = {}
         for at in itertools.product((0, 1, 2), repeat=3):
             near = [nodes[c] for c in range(8) if all(p in (1, 2 * q) for p, q in zip(at, _CORNERS[c], strict=True))]

@@ -1,9 +1,10 @@
-"""Meshes of wedges, pyramids and tetrahedra for tests: lattices of ideal cells, and all four kinds in one mesh."""
+"""Meshes of wedges, pyramids and tetrahedra for tests: lattices of ideal cells, and the gallery's of all kinds."""
 
 import itertools
 
 import numpy as np
 
+from hexmend.gallery import make
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import HEXAHEDRON, PYRAMID, SOLID_BLOCKS, WEDGE
@@ -66,16 +67,6 @@ def honeycomb(n: int) -> Mesh:
 
 
 def mixed(n: int) -> Mesh:
-    """Make a grid of cubes whose top layer is cut into pyramids, with tetrahedra on top, and whose last column, wedges."""
-    cubes = grid(n)
-    i, _, k = np.unravel_index(np.arange(n**3), (n, n, n))[::-1]
-    column, top = i == n - 1, (k == n - 1) & (i < n - 1)
-    cut = cubes.hexes[column]
-    wedges = np.concatenate([cut[:, [0, 1, 2, 4, 5, 6]], cut[:, [0, 2, 3, 4, 6, 7]]])
-    cut, apexes = cubes.hexes[top], cubes.n_nodes + np.arange(top.sum())[:, None]
-    inward = [[0, 3, 7, 4], [1, 5, 6, 2], [0, 4, 5, 1], [3, 2, 6, 7], [0, 1, 2, 3]]  # z+ is cut once more
-    pyramids = np.concatenate([np.hstack([cut[:, face], apexes]) for face in inward])
-    tetrahedra = np.concatenate([np.hstack([cut[:, face], apexes]) for face in ([4, 6, 5], [4, 7, 6])])
-    blocks = Cells("wedge", wedges), Cells("pyramid", pyramids), Cells("tetra", tetrahedra)
-    points = np.concatenate([cubes.points, cubes.points[cut].mean(axis=1)])
-    return Mesh(points, cubes.hexes[~(column | top)], cells=blocks, name="mixed")
+    """Make the gallery's mesh of all kinds, of n^3 cubes of size 1."""
+    mesh = make("mixed", size=n**3 + 7 * n**2 - 6 * n)
+    return mesh.with_points(n * mesh.points)

@@ -163,10 +163,7 @@ class HangingNodes(Problem):
     name, title = "hanging-nodes", "Hanging nodes"
     items = "nodes"
     rank = 7
-    remedy = (
-        "They count as boundary nodes and stay in place, like the coarse side; a mesher with conforming transitions "
-        "avoids them."
-    )
+    remedy = "Where fine faces cover a coarse one they move with its nodes; others count as boundary nodes and stay."
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick:
@@ -180,7 +177,8 @@ class HangingNodes(Problem):
         nodes = np.flatnonzero(mesh.topology.boundary)
         pairs = close_pairs(np.concatenate([mesh.points[nodes], middles]), _merge_distance(mesh))
         node, middle = pairs.T
-        return np.unique(nodes[node[(node < nodes.size) & (middle >= nodes.size)]])
+        still = nodes[node[(node < nodes.size) & (middle >= nodes.size)]]
+        return np.unique(np.concatenate([mesh.topology.hanging[:, 0], still]))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(

@@ -5,7 +5,7 @@ Addition of second derivatives of some elements, quads or hexes, to assembled He
 
 from __future__ import annotations
 
-from typing import Protocol
+from abc import ABC, abstractmethod
 
 import numpy as np
 
@@ -68,34 +68,47 @@ class ElementBlocks:
         return places
 
 
-class Term(Protocol):
+class Term(ABC):
     """Function of the positions of all nodes, which is added to an energy."""
 
     @property
     def limits_moves(self) -> bool:
         """True if `beyond` may find some nodes."""
+        return False
 
     @property
     def total_weight(self) -> float:
         """Value, in hexes, that it may have where all of them are perfect."""
+        return 0.0
 
+    @abstractmethod
     def value(self, x: np.ndarray, norm: ObjectiveNorm) -> float:
         """Compute the term at positions x (n, 3) in the energy's unit; +inf where they are not allowed."""
 
+    @abstractmethod
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute its gradient by all nodes, (n, 3)."""
 
+    @abstractmethod
     def assemble(self, x: np.ndarray, norm: ObjectiveNorm, matrix: AssembledHessian) -> None:
         """Add its second derivatives, or a semidefinite part of them, to a matrix."""
 
     def beyond(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         """Mark nodes, (n,) bool, that may not move from x (n, 3) to `there` (n, 3); None if all may."""
+        return None
 
     def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Term:
-        """Return the term of a part, by the positions of its nodes (j,); `moves` (j,) bool, x (n, 3) those of all."""
+        """Return the term of a part, by the positions of its nodes (j,); `moves` (j,) bool, x (n, 3) those of all.
+
+        Raises
+        ------
+        NotImplementedError
+            For a term that is made for what moves.
+        """
+        raise NotImplementedError
 
 
-class Terms:
+class Terms(Term):
     """Sum of terms."""
 
     def __init__(self, *terms: Term):

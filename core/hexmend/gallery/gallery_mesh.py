@@ -41,7 +41,7 @@ class GalleryMesh(Parametrised, ABC):
     def build(self) -> Mesh:
         """Build the mesh."""
         mesh = self.regular()
-        mesh = mesh.replace(name=f"{self.name}-{mesh.n_hexes}")
+        mesh = mesh.replace(name=f"{self.name}-{mesh.n_elements}")
         return self.scrambled(mesh) if self.scramble > 0 else mesh
 
     def scrambled(self, mesh: Mesh) -> Mesh:

@@ -1,4 +1,4 @@
-"""Detection of boundary layers: stacks of thin hexes over whole patches of the boundary, with heights that grow.
+"""Detection of boundary layers: stacks of thin hexes or wedges over whole patches of the boundary, whose heights grow.
 
 Layers on walls that sets name, whether or not their heights grow.
 """
@@ -12,10 +12,10 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary import boundary_of
 from hexmend.errors import MeshError
-from hexmend.layers.walls import Layers, lateral_lengths, layers_of_columns, walk_columns
-from hexmend.mesh.hexahedron import FACES
+from hexmend.layers.walls import WEDGE, Layers, lateral_lengths, layers_of_columns, nodes_of_faces, walk_columns
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
+from hexmend.mesh.solid_cells import kinds_of
 from hexmend.quality import ElementQuality
 from hexmend.quality.measure import corner_determinants
 from hexmend.target.sheets import recovered_lengths
@@ -53,13 +53,12 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     >>> bool(find_layers(make("cube", size=64))), [wall.depth for wall in find_layers(make("layered")).walls]
     (False, [20])
     """
-    neighbours = mesh.topology.hex_neighbours
-    hexes, faces = np.nonzero(mesh.topology.face_neighbours[: mesh.n_hexes] < 0)
+    neighbours, at, hexes, faces = _faces_of_columns(mesh)
     volume, area, side = sizes_at_wall(mesh, hexes, faces)
     flat = volume * THIN <= side * area
     if not flat.any():
         return Layers()
-    patch = boundary_of(mesh, corners=np.empty(0, np.int32)).patch_of_face[: len(hexes)]
+    patch = boundary_of(mesh, corners=np.empty(0, np.int32)).patch_of_face[at]
     mostly_flat = np.bincount(patch, flat) * 2 >= np.bincount(patch)
     chosen = np.flatnonzero(mostly_flat[patch])
     if not chosen.size:
@@ -79,7 +78,30 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
             number += 1
             names[rows] = _side_set(mesh, hexes[rows[0]], faces[rows[0]]) or f"wall {number}"
     found = names != ""
-    return layers_of_columns(names[found], columns[found], entries[found], mesh.n_hexes)
+    return layers_of_columns(names[found], columns[found], entries[found], mesh.n_elements)
+
+
+def _faces_of_columns(mesh: Mesh) -> tuple[np.ndarray, ...]:
+    """Neighbours across the faces through which columns go, and those of these faces that are boundary.
+
+    Returns
+    -------
+    neighbours : (m, 6) int32
+        -1 on the boundary; the cell itself where no column goes. Triangles of wedges are the faces 4 and 5, as those
+        across the same direction of hexes.
+    at : (k,) int64
+        Of the faces on the boundary, the rows in `Topology.boundary_faces`.
+    cells, faces : (k,) int64
+    """
+    given, kinds = mesh.topology.face_neighbours, kinds_of(mesh.elements)
+    cells, faces = np.nonzero(given < 0)
+    if not kinds.any():
+        return given, np.arange(len(cells)), cells, faces
+    wedges, own = kinds == WEDGE, np.arange(len(kinds), dtype=np.int32)[:, None]
+    neighbours = np.where(kinds[:, None] == 0, given, own)
+    neighbours[wedges, 4:] = given[wedges, :2]
+    at = np.flatnonzero((kinds[cells] == 0) | wedges[cells] & (faces < 2))
+    return neighbours, at, cells[at], faces[at] + 4 * wedges[cells[at]]
 
 
 def _depth(aspect: float, growth: np.ndarray) -> int:
@@ -89,11 +111,15 @@ def _depth(aspect: float, growth: np.ndarray) -> int:
 
 
 def sizes_at_wall(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Volumes of hexes (k,), areas of one face of each, (k,) int, and the longest sides of these faces; each (k,)."""
-    x = mesh.points[mesh.hexes[hexes[:, None], FACES[faces]]]
+    """Volumes of hexes (k,), areas of one face of each, (k,) int, and the longest sides of these faces; each (k,).
+
+    Of wedges too; see `nodes_of_faces`.
+    """
+    x = mesh.points[nodes_of_faces(mesh.elements, hexes, faces)]
     area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
     side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
-    return corner_determinants(mesh.points, mesh.hexes, hexes).mean(axis=1), area, side
+    ideal = np.where(kinds_of(mesh.elements[hexes]) == WEDGE, np.sqrt(3) / 4, 1.0)  # volume
+    return ideal * corner_determinants(mesh.points, mesh.elements, hexes).mean(axis=1), area, side
 
 
 def _side_set(mesh: Mesh, hex: int, face: int) -> str:
@@ -134,11 +160,10 @@ def layers_on_sets(mesh: Mesh, names: Sequence[str], quality: ElementQuality | N
     >>> layers_on_sets(mesh, list(mesh.side_sets)[:1]).walls[0].depth
     20
     """
-    neighbours = mesh.topology.hex_neighbours
-    hexes, faces = np.nonzero(mesh.topology.face_neighbours[: mesh.n_hexes] < 0)
+    neighbours, at, hexes, faces = _faces_of_columns(mesh)
     wall = np.full(len(hexes), "", dtype=object)
     for name in names:
-        marks = _faces_in_set(mesh, name, hexes, faces)
+        marks = _faces_in_set(mesh, name, at, hexes, faces)
         if not marks.any():
             raise MeshError(
                 f"the set {name!r} has no face on the boundary, on which layers could stand: name a set of boundary "
@@ -147,12 +172,12 @@ def layers_on_sets(mesh: Mesh, names: Sequence[str], quality: ElementQuality | N
         wall[marks & (wall == "")] = name
     chosen = wall != ""
     columns = walk_columns(neighbours, recovered_lengths(mesh, quality), hexes[chosen], faces[chosen])
-    return layers_of_columns(wall[chosen], *columns, mesh.n_hexes)
+    return layers_of_columns(wall[chosen], *columns, mesh.n_elements)
 
 
-def _faces_in_set(mesh: Mesh, name: str, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Mark the faces of the boundary (k,), by hex and row of FACES, that are in a set, (k,) bool."""
+def _faces_in_set(mesh: Mesh, name: str, at: np.ndarray, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Mark the faces of the boundary (k,), by row in `boundary_faces`, cell and face, that are in a set, (k,) bool."""
     if name in mesh.side_sets:
         rows = np.asarray(mesh.side_sets[name], dtype=np.int64)
         return np.isin(6 * hexes + faces, 6 * rows[:, 0] + rows[:, 1])
-    return mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.topology.boundary_faces[: len(hexes)]].all(axis=1)
+    return mask(nodes_in_set(mesh, name), mesh.n_nodes)[mesh.topology.boundary_faces[at]].all(axis=1)

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.layers.targets import MAX_DISTORTED
-from hexmend.layers.walls import Layers, Wall
-from hexmend.mesh.hexahedron import FACES
+from hexmend.layers.walls import Layers, Wall, nodes_of_faces
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.target.sheets import DISTORTED, given_lengths, recovered_lengths
@@ -171,10 +170,12 @@ def _state(wall: Wall, mesh: Mesh, lengths: np.ndarray) -> LayerState:
 
 def _angles(wall: Wall, mesh: Mesh) -> np.ndarray:
     """Angle between the wall's normal and the mean of the edges that leave each face, in degrees, (w,)."""
-    near = mesh.points[mesh.hexes[wall.hexes[:, :1], FACES[wall.faces[:, 0]]]]
-    far = mesh.points[mesh.hexes[wall.hexes[:, :1], FACES[wall.faces[:, 0] ^ 1]]]
+    faces = wall.faces[:, 0]
+    near, far = (mesh.points[nodes_of_faces(mesh.elements, wall.hexes[:, 0], each)] for each in (faces, faces ^ 1))
     normal = -np.cross(near[:, 2] - near[:, 0], near[:, 3] - near[:, 1])
-    along = far.mean(axis=1) - near.mean(axis=1)
+    means = near.mean(axis=1), far.mean(axis=1)
+    twice = (near[:, 2] == near[:, 3]).all(axis=1)[:, None] / 3  # the last corner of a triangle
+    along = means[1] - means[0] + twice * (means[1] - far[:, 3] - means[0] + near[:, 3])
     sizes = np.linalg.norm(normal, axis=1) * np.linalg.norm(along, axis=1)
     cosines = np.einsum("ij,ij->i", normal, along) / np.maximum(sizes, np.finfo(float).tiny)
     return np.degrees(np.arccos(np.clip(cosines, -1, 1)))

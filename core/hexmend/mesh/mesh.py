@@ -15,8 +15,8 @@ from hexmend.hooks import hook
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_cells
-from hexmend.mesh.mesh_motion import SHARED, MeshMotion, TargetSurface
-from hexmend.mesh.solid_cells import same_solids
+from hexmend.mesh.mesh_motion import NO_MOTION, SHARED, MeshMotion, TargetSurface
+from hexmend.mesh.solid_cells import count_cells, same_solids
 from hexmend.mesh.validation import check_finite, points_like
 from hexmend.summary import Summary
 from hexmend.terminal_text import count_phrase, printable
@@ -156,9 +156,9 @@ class Mesh(MeshMotion):
 
     def __repr__(self) -> str:
         name = f" {printable(self.name)}" if self.name else ""
-        hexes, nodes = count_phrase(self.n_hexes, "hex", "hexes"), count_phrase(self.n_nodes, "node")
+        cells, nodes = count_cells(self.elements), count_phrase(self.n_nodes, "node")
         known = self.__dict__.get("_invalid")  # once they have been counted
-        return f"<Mesh{name}: {hexes}, {nodes}{'' if known is None else f', {known:,} invalid'}>"
+        return f"<Mesh{name}: {cells}, {nodes}{'' if known is None else f', {known:,} invalid'}>"
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""
@@ -262,5 +262,25 @@ class Mesh(MeshMotion):
             mesh._set(_rules=self.node_rules)
         if "points" not in changes:
             names = ("_linear",) if "hexes" in changes else ("_linear", "_linear_of_rules")
-            mesh._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
+            for name in (name for name in names if name in self.__dict__):
+                motion, start = self.__dict__[name]
+                mesh._set(**{name: (motion.without_hanging().merge(mesh.hanging_motion), start)})
         return mesh
+
+    @classmethod
+    def of_cells(cls, points: np.ndarray, elements: np.ndarray, fixed: np.ndarray) -> Mesh:
+        """Make the mesh of some cells for a computation, in which no node is searched that hangs.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+        elements : (m, 8) int32
+            As of `elements`, of any kinds.
+        fixed : (n,) bool
+            The nodes that stay.
+
+        Returns
+        -------
+        Mesh
+        """
+        return cls(points, elements).with_motion_of_rules(NO_MOTION).with_fixed(fixed)

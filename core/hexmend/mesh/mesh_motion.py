@@ -21,7 +21,11 @@ from hexmend.mesh.validation import as_bools, check_finite, points_like
 from hexmend.terminal_text import count_phrase
 
 #: Cached properties that do not depend on the points.
-SHARED = ("fixed", "free", "immovable", "embedded", "materials", "middles")
+SHARED = ("fixed", "free", "immovable", "embedded", "materials", "middles", "hanging_motion")
+#: Those that do not depend on the linear motion.
+_OF_RULES = ("materials", "embedded", "immovable", "hanging_motion")
+#: The linear motion of meshes that have none.
+NO_MOTION = LinearMotion()
 #: Corners of cells of dimension 0 to 2; others have four.
 _CORNERS = {"vertex": 1, "line": 2, "line3": 2, "triangle": 3, "triangle6": 3}
 
@@ -94,7 +98,7 @@ class MeshMotion(MeshData):
     def immovable(self) -> np.ndarray:
         """True for nodes that stay where they are even if the boundary slides: pinned, embedded or fixed by a rule.
 
-        (n,) bool. So do the corners with which such a mid-node would move.
+        (n,) bool. So do the nodes with which such a mid-node or hanging node would move.
         """
         rules = self.node_rules
         stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
@@ -106,6 +110,9 @@ class MeshMotion(MeshData):
             stays |= rules.fixed
         if self.mid_nodes is not None and stays.any():
             stays |= corners_of_mid_nodes(stays, self.hexes, self.mid_nodes)
+        if stays.any():
+            hanging = self.topology.hanging
+            stays[hanging[stays[hanging[:, 0]], 1:]] = True
         stays[self.middles[stays[self.middles[:, 0]], 1:]] = True
         return as_immutable(stays)
 
@@ -199,15 +206,25 @@ class MeshMotion(MeshData):
         linear = {name: (self.__dict__[name][0], points) for name in names}
         return self._copy(*SHARED, _surface=points, **linear)
 
+    @cached_property
+    def hanging_motion(self) -> LinearMotion:
+        """The linear motion of the hanging nodes of the topology; empty if there are none."""
+        rows = self.topology.hanging
+        return LinearMotion.between(rows) if len(rows) else NO_MOTION
+
     @property
-    def _constraints(self) -> tuple[LinearMotion | None, np.ndarray]:
+    def _constraints(self) -> tuple[LinearMotion, np.ndarray]:
         """The linear motion, and the positions from which its displacements are counted."""
-        return self.__dict__.get("_linear_of_rules") or self.__dict__.get("_linear") or (None, self.points)
+        given = self.__dict__.get("_linear_of_rules") or self.__dict__.get("_linear")
+        return given or (self.hanging_motion, self.points)
 
     @property
     def linear_motion(self) -> LinearMotion | None:
-        """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""
-        return self._constraints[0]
+        """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`.
+
+        Hanging nodes (`Topology.hanging`) move with the nodes between which they hang, whatever is given.
+        """
+        return self._constraints[0] or None
 
     @property
     def motion_start(self) -> np.ndarray:
@@ -236,7 +253,7 @@ class MeshMotion(MeshData):
         MeshError
             For a node that does not exist.
         """
-        mesh = self.without_motion_of_rules()._copy("materials", "embedded", "immovable")
+        mesh = self.without_motion_of_rules()._copy(*_OF_RULES)
         mesh.__dict__.pop("_linear", None)
         if not motion:
             return mesh
@@ -245,18 +262,19 @@ class MeshMotion(MeshData):
                 f"the linear motion names node {motion.largest_node}, but the mesh has "
                 f"{count_phrase(self.n_nodes, 'node')}, counted from 0: correct the number"
             )
+        motion = motion.without_hanging().merge(self.hanging_motion)
         mesh._set(_linear=(motion, self.points if start is None else as_immutable(start)))
         return mesh
 
     def with_motion_of_rules(self: M, motion: LinearMotion) -> M:
         """Return the mesh with a linear motion that includes that of its rules; see `without_motion_of_rules`."""
-        return self._copy("materials", "embedded", "immovable", _linear_of_rules=(motion, self.points))
+        return self._copy(*_OF_RULES, _linear_of_rules=(motion, self.points))
 
     def without_motion_of_rules(self: M) -> M:
         """Return the mesh with the linear motion that it had before rules added theirs."""
         if "_linear_of_rules" not in self.__dict__:
             return self
-        mesh = self._copy("materials", "embedded", "immovable")
+        mesh = self._copy(*_OF_RULES)
         del mesh.__dict__["_linear_of_rules"]
         return mesh
 
@@ -269,7 +287,7 @@ class MeshMotion(MeshData):
             Returned themselves if the mesh has no linear motion; not changed.
         """
         motion, start = self._constraints
-        return points if motion is None else constrained_points(motion, start, points, self.free)
+        return constrained_points(motion, start, points, self.free) if motion else points
 
     def with_fixed(self: M, fixed: np.ndarray) -> M:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
@@ -292,7 +310,15 @@ class MeshMotion(MeshData):
         fixed = as_bools(fixed, "fixed", self.n_nodes)
         if self.linear_motion is not None:
             fixed = with_ties_fixed(self.linear_motion, fixed)
-        return self._copy("materials", "embedded", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
+        return self._copy(*_OF_RULES, fixed=as_immutable(fixed), _surface=self.surface_points)
+
+    def with_free(self: M, nodes: np.ndarray) -> M:
+        """Return the mesh with some nodes (n,) bool free, and those that hang on them; see `with_fixed`."""
+        motion = self.linear_motion
+        if motion is not None:
+            nodes = nodes.copy()
+            nodes[motion.hanging[nodes[motion.anchors]]] = True
+        return self.with_fixed(self.fixed & ~nodes)
 
     def with_rules(self: M, **rules: Any) -> M:
         """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
@@ -311,4 +337,4 @@ class MeshMotion(MeshData):
 
         `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
         """
-        return self._copy("materials", "embedded", _rules=rules)
+        return self._copy("materials", "embedded", "hanging_motion", _rules=rules)

@@ -15,7 +15,8 @@ from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
 from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
-from hexmend.mesh.topology import Topology
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import CSR, Topology
 from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import LEAST_EIGENVALUE
 
@@ -37,6 +38,26 @@ def newton_steps(values: np.ndarray, gradients: np.ndarray, hessians: np.ndarray
     return -np.einsum("kij,kj->ki", vectors, along)
 
 
+def colours_of_independent(mesh: Mesh, chosen: np.ndarray) -> CSR:
+    """Colour the nodes that some nodes, chosen (n,) bool, follow or hang on, so that no two of a colour move one cell.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With a linear motion.
+    chosen : (n,) bool
+
+    Returns
+    -------
+    CSR
+        Free nodes that lead, by colour.
+    """
+    motion, n = mesh.linear_motion, mesh.n_nodes
+    assert motion is not None  # else nothing is followed
+    moves = motion.with_coupled(chosen & mesh.free) & mesh.free & motion.leads(n)
+    return Topology(motion.independent_rows(mesh.elements, n), n).colouring(moves)
+
+
 class ConstrainedSweeps:
     """Sweeps over some nodes of a mesh and those tied to them, colour after colour.
 
@@ -49,11 +70,7 @@ class ConstrainedSweeps:
     """
 
     def __init__(self, energy: MeshEnergy, chosen: np.ndarray):
-        mesh = energy.mesh
-        root = mesh.linear_motion.roots(mesh.n_nodes)
-        moves = np.zeros(mesh.n_nodes, dtype=bool)
-        moves[root[chosen & mesh.free]] = True
-        colours = Topology(root[mesh.elements], mesh.n_nodes).colouring(moves)
+        colours = colours_of_independent(energy.mesh, chosen)
         self._parts = [_Colour(energy, colours[i]) for i in range(len(colours))]
 
     def __call__(

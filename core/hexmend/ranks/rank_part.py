@@ -119,7 +119,7 @@ def make_part(comm: MPI.Comm, rows: dict[str, np.ndarray]) -> RankPart:
         return {rank: at for rank, at in found.items() if at.size}
 
     length, n_hexes = rows["sizes"]
-    mesh = Mesh(rows["points"], rows["hexes"]).with_fixed(rows["fixed"])
+    mesh = Mesh.of_cells(rows["points"], rows["hexes"], rows["fixed"])
     if "lengths" in rows:
         mesh = mesh.with_element_target(Target(rows["lengths"], float(rows["size_weight"][0])))
     mesh._set(mean_edge_length=float(length))
@@ -197,7 +197,7 @@ class RankSliding:
         moving = self._in_part[whole.nodes]
         slides[moving[moving >= 0]] = True
         self.nodes = np.flatnonzero(slides & part.owned)
-        free = mesh.with_fixed(mesh.fixed & ~slides)
+        free = mesh.with_free(slides)
         free._set(mean_edge_length=mesh.mean_edge_length)
         self.mesh = free
         self._ranks = ranks

@@ -239,7 +239,7 @@ class Run(Iterator[Iteration]):
             words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
         else:
             mesh = self._result_mesh
-            words.append(name_invalid(mesh, measure(mesh.points, mesh.hexes, mesh.mid_nodes)))
+            words.append(name_invalid(mesh, measure(mesh.points, mesh.elements, mesh.mid_nodes)))
             words.append(describe_overlap(self.mesh))
         result = None if self.outcome is None else self._result_mesh
         words.append(self._shapes.message(self.stage.smoother, walls, result))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from hexmend.mesh.mesh import Mesh
@@ -38,7 +39,7 @@ def constrained_steps(smoother: Smoother, mesh: Mesh) -> Steps:
     motion = mesh.linear_motion
     if motion is None or smoother.keeps_linear_motion:
         return smoother.steps(mesh)
-    linear = mesh.free & motion.marks(mesh.n_nodes)
+    linear = mesh.free & motion.with_coupled(motion.marks(mesh.n_nodes))
     sweep = smoother.constrained_sweep(mesh, linear)
     if sweep is None:
         return _projected_steps(smoother, mesh.keeping_surface())
@@ -102,16 +103,15 @@ def _without_inversions(
     """Move by the admissible part of moves (n, 3), shortened around hexes that they would invert."""
     motion = mesh.linear_motion
     assert motion is not None  # such a mesh alone has constrained steps
-    moves, root = admissible_displacements(motion, moves), motion.roots(mesh.n_nodes)
+    moves = admissible_displacements(motion, moves)
     for halving in range(HALVINGS + 2):
         moved = mesh.constrained(points + moves)
         after = measure(moved, mesh.elements)
         harmed = after.inverted & ~quality.inverted
         if not harmed.any():
             return moved, after
-        near = np.zeros(mesh.n_nodes, dtype=bool)
-        near[root[mesh.elements[harmed]]] = True
-        moves[near[root]] *= 0.5 if halving < HALVINGS else 0.0
+        near = motion.with_coupled(mask(mesh.elements[harmed], mesh.n_nodes))
+        moves[near] *= 0.5 if halving < HALVINGS else 0.0
     return points, quality
 
 

@@ -60,6 +60,10 @@ MOTIONS = {
     "rotation": LinearMotion.tying(X1, X0, turn(25)),
     "within hexes": LinearMotion.tying(BLOCK.hexes[0][1:4], BLOCK.hexes[0][[0, 0, 0]], turn(70, 1)),
     "rotation and planes": LinearMotion.tying(X1, X0, turn(90)).merge(LinearMotion.in_planes(X0, [0.2, 1.0, 0])),
+    "hanging": PLANES.merge(LinearMotion.between([[INNER[0], *BLOCK.hexes[0][:4]], [X0[4], *INNER, X1[4], INNER[0]]])),
+    "hanging and tied": LinearMotion.tying(X1, X0, turn(25)).merge(
+        LinearMotion.between([[INNER[0], X1[4], X1[4], X0[3], INNER[1]]])
+    ),
     "several": LinearMotion.tying(X1, X0).merge(LinearMotion.tying(face(BLOCK, 1, 2), face(BLOCK, 1, 0))),
 }
 cases = given(st.sampled_from(sorted(MOTIONS)), st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))

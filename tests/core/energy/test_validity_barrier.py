@@ -13,15 +13,16 @@ from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.optimise.floors.movable_hexes import MovableHeights
 from hexmend.quality.validity import Validity, certify
 from tests.core.grids import grid, scrambled
+from tests.core.solid_lattices import mixed
 
 NORM = ObjectiveNorm()
 seeds = st.integers(0, 2**32 - 1)
 
 
 def case_of(seed, amplitude=0.4):
-    """A barrier of some hexes of a grid, with values in its band, and positions."""
-    mesh = scrambled(grid(3), amplitude, seed)
-    return ValidityBarrier.of(mesh.hexes[::4].copy(), mesh.points, 0.1, 1.0), mesh.points
+    """A barrier of some cells of a grid, or of a mesh of all kinds, with values in its band, and positions."""
+    mesh = scrambled(mixed(3) if seed % 2 else grid(3), amplitude, seed)
+    return ValidityBarrier.of(mesh.elements[::4].copy(), mesh.points, 0.1, 1.0), mesh.points
 
 
 @given(seeds)

@@ -59,10 +59,10 @@ def test_the_sharp_bridge_gains_by_optimising_and_is_inverted_by_laplacian_smoot
 @given(size=st.integers(2000, 20_000))
 def test_any_size_comes_near_and_is_sound(name, size):
     mesh = make(name, size=size)
-    assert mesh.n_hexes == pytest.approx(size, rel=0.3 if name != "kershaw" else 1)  # multiples of 6
+    assert mesh.n_elements == pytest.approx(size, rel=0.3 if name != "kershaw" else 1)  # multiples of 6
     assert examine(mesh) == ()
     assert (summarise(mesh).inverted == 0) == (name != "plane")  # plane is made to be mended
-    assert mesh.name == f"{name}-{mesh.n_hexes}"
+    assert mesh.name == f"{name}-{mesh.n_elements}"
 
 
 @every

@@ -99,13 +99,13 @@ def test_the_start_is_worse_than_itself_in_nothing(goal):
     mesh = grid(2)
     points = mesh.points.copy()
     points[MIDDLE] += 0.2
-    figures = measure(points, mesh.hexes)
+    figures = measure(points, mesh.elements)
     *counts, harmed, last = METHODS["mend"](goal=goal).rank(figures, figures)
     assert [*counts, bool(harmed)] == [False, False, 0, 0, False]
     assert goal != "shape" or not last
     worse = points.copy()
     worse[MIDDLE] += 0.1
-    of_worse = METHODS["mend"](goal=goal).rank(figures, measure(worse, mesh.hexes))
+    of_worse = METHODS["mend"](goal=goal).rank(figures, measure(worse, mesh.elements))
     assert of_worse > (*counts, harmed, last)
 
 
@@ -292,7 +292,7 @@ def test_an_optimiser_keeps_its_last_iterate_unless_that_is_worse(name, start):
 @given(name=st.sampled_from(sorted(METHODS)), start=meshes())
 def test_worse_tells_exactly_what_is_worse(name, stop, start):
     result = smooth(start, name, stop)
-    before, after = measure(start.points, start.hexes), measure(result.mesh.points, start.hexes)
+    before, after = measure(start.points, start.elements), measure(result.mesh.points, start.elements)
     rise = {
         "inverted": before.n_inverted - after.n_inverted,
         "invalid": before.n_invalid - after.n_invalid,

@@ -96,7 +96,7 @@ class SlidingBoundary(SlidingNodes):
             at_start = np.array_equal(mesh.points, start)
             mesh = mesh.with_points(self._start if at_start else self.projected(mesh.points))
             self.points = mesh.surface_points
-        self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
+        self.mesh = mesh.with_free(slides)
         self._left_faces = whole.faces[~moves_with]
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
@@ -161,7 +161,7 @@ class SlidingBoundary(SlidingNodes):
 
     def linear_mesh_without(self, leaving: np.ndarray) -> Mesh:
         """Return `linear_mesh` with some nodes (n,) bool free: they move in all directions, off the surface too."""
-        mesh = self.mesh.with_fixed(self.mesh.fixed & ~leaving)
+        mesh = self.mesh.with_free(leaving)
         if not self._flat:
             return mesh
         flat = self._flat.renumbered(np.where(leaving, -1, np.arange(leaving.size)))

@@ -25,6 +25,7 @@ from hexmend.boundary.edges import SurfaceEdges
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
+from hexmend.energy.terms import Term
 from hexmend.kernels import closest_point
 from hexmend.kernels import surface_fit as kernels
 
@@ -75,7 +76,7 @@ class Costs(NamedTuple):
     second: np.ndarray
 
 
-class SurfaceFit:
+class SurfaceFit(Term):
     """Distances of samples of a boundary from its surface, and of the surface from the boundary.
 
     Samples with a node that moves in space count; others do not: their nodes keep planes, lines and places exactly.
@@ -103,8 +104,6 @@ class SurfaceFit:
     slope : float
         Of the elastic ceiling, an energy per mean edge length; 0: none.
     """
-
-    total_weight = 0.0
 
     def __init__(
         self,
@@ -212,7 +211,7 @@ class SurfaceFit:
         return other
 
     def _all(self, x: np.ndarray) -> np.ndarray:
-        """Positions of all nodes, (n, 3), by those of the part."""
+        """Positions of all nodes, (n, 3), from the positions of the nodes of the part."""
         if self._part is None:
             return x
         nodes, others = self._part

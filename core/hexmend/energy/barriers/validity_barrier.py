@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Self
 
 import numpy as np
 
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.norm import ObjectiveNorm
-from hexmend.energy.terms import ElementBlocks
+from hexmend.energy.terms import ElementBlocks, Term
 from hexmend.kernels import validity as kernels
 from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.solid_cells import kinds_of
 
 #: Places 0, 1/2 and 1 along each axis of the unit cube, (27, 3), x slowest.
 _LATTICE = np.stack(np.meshgrid(*[[0.0, 0.5, 1.0]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -28,10 +28,25 @@ def _along_three_axes(matrix: np.ndarray) -> np.ndarray:
 
 
 def _gradients() -> np.ndarray:
-    """Derivatives of the trilinear functions of the corners at the lattice, (27, 3, 8)."""
+    """Matrices by which the nodes of each kind give the matrices whose determinants are the values at the lattice.
+
+    These are J of hexes, and of other kinds what `native/mesh/validity.cpp` certifies, (kinds, 27, 3, 8).
+    """
     factors = np.where(UNIT_CUBE == 1, _LATTICE[:, None], 1 - _LATTICE[:, None])
     slopes = 2.0 * UNIT_CUBE - 1
-    return np.stack([slopes[:, k] * np.delete(factors, k, axis=2).prod(axis=2) for k in range(3)], axis=1)
+    hexes = np.stack([slopes[:, k] * np.delete(factors, k, axis=2).prod(axis=2) for k in range(3)], axis=1)
+    (u, v, w), one = _LATTICE.T, np.ones(len(_LATTICE))
+    u0, v0, w0 = 1 - _LATTICE.T
+    first, second, third = v0 * u0 + v * u, v0 * u, v * u0  # of the triangle's corners, at a point of the square
+    wedges, pyramids, tetrahedra = np.zeros((3, len(_LATTICE), 3, 8))
+    wedges[:, 0, [0, 1, 3, 4]] = np.stack([-w0, w0, -w, w], axis=1)
+    wedges[:, 1, [0, 2, 3, 5]] = np.stack([-w0, w0, -w, w], axis=1)
+    wedges[:, 2, :6] = np.stack([-first, -second, -third, first, second, third], axis=1)
+    pyramids[:, 0, :4] = np.stack([-v0, v0, v, -v], axis=1)
+    pyramids[:, 1, :4] = np.stack([-u0, -u, u, u0], axis=1)
+    pyramids[:, 2, :5] = np.stack([-u0 * v0, -u * v0, -u * v, -u0 * v, one], axis=1)
+    tetrahedra[:, :, 0], tetrahedra[:, range(3), range(1, 4)] = -1, 1
+    return np.stack([hexes, wedges, pyramids, tetrahedra])
 
 
 _GRADIENTS = _gradients()
@@ -40,7 +55,7 @@ _COEFFICIENTS = _HALVED @ _along_three_axes(_BY_VALUES)
 
 
 @dataclass(frozen=True, eq=False)
-class ValidityBarrier:
+class ValidityBarrier(Term):
     """Sum of weight b((B - floor)/band) over the Bernstein coefficients B of det J of the eighths of some hexes.
 
     b(y) = -log y + (y - 1) - (y - 1)²/2 below y = 1, else 0, as of `FloorBarrier`. Coefficients are relative to
@@ -50,6 +65,7 @@ class ValidityBarrier:
     Parameters
     ----------
     hexes : (k, 8) int32
+        Cells of any kinds.
     sizes : (k,) float64
         Greatest coefficient of each hex at first, in cubes of the energy's unit of length.
     floors : (k,) float64
@@ -64,10 +80,6 @@ class ValidityBarrier:
     band: float
     weight: float
     blocks: ElementBlocks
-
-    #: It adds nothing to the energy of perfect hexes.
-    total_weight = 0.0
-    limits_moves = False
 
     @classmethod
     def of(cls, hexes: np.ndarray, x: np.ndarray, band: float, weight: float) -> ValidityBarrier:
@@ -101,10 +113,6 @@ class ValidityBarrier:
         z = np.minimum(y, 1.0) - 1
         return self.weight * float((-np.log1p(z) + z - z**2 / 2).sum())
 
-    def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Self:
-        """Raise `NotImplementedError`: it is made for what moves."""
-        raise NotImplementedError
-
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute the gradient by all nodes, (n, 3)."""
         first, _, by_nodes = self._derivatives(x)
@@ -116,9 +124,6 @@ class ValidityBarrier:
         _, second, by_nodes = self._derivatives(x)
         self.blocks.add(np.einsum("hi,hicx,hidy->hcdxy", second, by_nodes, by_nodes), matrix)
 
-    def beyond(self, x: np.ndarray, there: np.ndarray) -> None:
-        """Return None: it limits no moves; see `hexmend.energy.terms.Term`."""
-
     def _relative(self, x: np.ndarray) -> np.ndarray:
         """Coefficients at points x (n, 3), (k, 125), relative to `sizes`."""
         return _coefficients(self.hexes, x) / self.sizes[:, None]
@@ -128,9 +133,10 @@ class ValidityBarrier:
         z = np.minimum((self._relative(x) - self.floors[:, None]) / self.band, 1.0)
         first = self.weight / self.band * (2 - z - 1 / z)
         second = self.weight / self.band**2 * (1 / z**2 - 1)
-        maps = np.einsum("qdc,hcx->hqdx", _GRADIENTS, x[self.hexes])
+        gradients = _GRADIENTS[kinds_of(self.hexes)]
+        maps = np.einsum("hqdc,hcx->hqdx", gradients, x[self.hexes])
         cofactors = np.cross(maps[:, :, [1, 2, 0]], maps[:, :, [2, 0, 1]])
-        of_values = np.einsum("hqdx,qdc->hqcx", cofactors, _GRADIENTS)
+        of_values = np.einsum("hqdx,hqdc->hqcx", cofactors, gradients)
         by_nodes = np.einsum("iq,hqcx->hicx", _COEFFICIENTS, of_values) / self.sizes[:, None, None, None]
         return first, second, by_nodes
 

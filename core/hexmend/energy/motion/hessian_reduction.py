@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.arrays import index_of, mask
-from hexmend.energy.assembled_hessian import AssembledHessian
+from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.motion.motion import Motion
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.energy.terms import UPPER
 from hexmend.energy.workspace import Workspace
 from hexmend.kernels import conjugate_gradients
+from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 class HessianReduction:
@@ -31,7 +36,7 @@ class HessianReduction:
     def __init__(self, motion: Motion, workspace: Workspace):
         self._motion, self._workspace = motion, workspace
         self._known_blocks: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
-        self._maps: dict[BlockSparsity, tuple[np.ndarray, ...]] = {}
+        self._maps: dict[tuple[BlockSparsity, BlockSparsity], list[csr_array]] = {}
 
     def reduced(self, full: AssembledHessian, x: np.ndarray) -> AssembledHessian:
         """Reduce a Hessian to T^T H T, with a multiple of the identity where nodes cannot move.
@@ -47,7 +52,10 @@ class HessianReduction:
         -------
         AssembledHessian
         """
-        motion, matrix = self._motion, full
+        motion = self._motion
+        if motion.hanging[0].size:
+            full = self._merged(full, self._without_hanging, self._anchors)
+        matrix = full
         if motion.bent.size:
             turn = motion.turn(x).astype(full.dtype).reshape(-1, 9)
             slots, *blocks = self._blocks(full.sparsity)
@@ -55,8 +63,9 @@ class HessianReduction:
             conjugate_gradients.turn_blocks(np.concatenate([identity, turn]), *blocks, full.off_diagonal)
             if motion.row is not None:
                 conjugate_gradients.turn_diagonal(turn, slots, full.diagonal)
-        if motion.row is not None:
-            matrix = self._merged(full, motion.row)
+        if motion.row is not None and motion.tied.size:
+            nodes = self._independent_nodes
+            matrix = self._merged(full, nodes if full.sparsity.has_opposite else nodes.of_tetrahedra, self._masters)
         if motion.bent.size:  # a scale between the extreme eigenvalues where they cannot move
             own = index_of(matrix.sparsity.nodes, motion.mesh.n_nodes)[motion.bent[motion.restricted]]
             conjugate_gradients.project_diagonal(turn[motion.restricted], own, matrix.diagonal)
@@ -87,38 +96,99 @@ class HessianReduction:
         return BlockSparsity(motion.mesh, workspace=self._workspace, owned=motion.owned, ranks=motion.ranks)
 
     @cached_property
+    def _without_hanging(self) -> BlockSparsity:
+        """The order of free nodes that do not hang: hexes use those on which a hanging node hangs."""
+        linear, mesh = self._motion.mesh.linear_motion, self._motion.mesh
+        assert linear is not None  # else no node hangs
+        rows = LinearMotion(hanging=linear.hanging, anchors=linear.anchors, weights=linear.weights)
+        leads = mesh.free & rows.leads(mesh.n_nodes)
+        return BlockSparsity(Mesh.of_cells(mesh.points, rows.independent_rows(mesh.elements, mesh.n_nodes), ~leads))
+
+    @cached_property
     def _independent_nodes(self) -> BlockSparsity:
         """The order of independent nodes: hexes use the master of each tied node."""
-        motion, mesh = self._motion, self._motion.mesh
+        motion, mesh, linear = self._motion, self._motion.mesh, self._motion.mesh.linear_motion
+        assert linear is not None  # else no node is tied
         fixed = ~mask(motion.nodes, mesh.n_nodes)
-        return BlockSparsity(Mesh(mesh.points, motion.root[mesh.elements]).with_fixed(fixed))
+        return BlockSparsity(Mesh.of_cells(mesh.points, linear.independent_rows(mesh.elements, mesh.n_nodes), fixed))
 
-    def _merged(self, full: AssembledHessian, rows: np.ndarray) -> AssembledHessian:
-        """Sum the blocks of tied nodes and of their masters; `rows` (k,) is `Motion.row`."""
-        sparsity = self._independent_nodes if full.sparsity.has_opposite else self._independent_nodes.of_tetrahedra
+    @property
+    def _masters(self) -> tuple[np.ndarray, ...]:
+        """Free nodes that do not hang, by index, the independent node that each follows, and the weight 1."""
+        motion = self._motion
+        rows = np.delete(motion.row, motion.hanging[0])
+        return np.arange(rows.size), rows, np.ones(rows.size)
+
+    @property
+    def _anchors(self) -> tuple[np.ndarray, ...]:
+        """Free nodes and those among the ones that do not hang on which each hangs, by index, and their weights."""
+        hanging, anchors, weights = self._motion.hanging
+        others = np.delete(np.arange(self._motion.free.size), hanging)
+        number = index_of(others, self._motion.free.size)
+        ends = np.concatenate([others, hanging]), np.concatenate([number[others], number[anchors]])
+        return *ends, np.concatenate([np.ones(others.size), weights])
+
+    def _merged(
+        self, full: AssembledHessian, sparsity: BlockSparsity, entries: tuple[np.ndarray, ...]
+    ) -> AssembledHessian:
+        """Sum blocks times weights to those of other nodes: W^T H W.
+
+        Parameters
+        ----------
+        full : AssembledHessian
+        sparsity : BlockSparsity
+            Of the sum.
+        entries : tuple of (e,) int, (e,) int, (e,) float64
+            Of W: the index of a node of `full`, that of a node of the sum, both by number, and the weight.
+        """
         matrix = AssembledHessian.zero(sparsity, full.dtype)
         matrix.exponent = full.exponent
-        order, start, transposed, inside, inside_slot, slot_of = self._merge_map(full.sparsity, sparsity, rows)
-        blocks = full.off_diagonal[:-1].reshape(-1, 3, 3)
-        blocks[transposed] = blocks[transposed].transpose(0, 2, 1).copy()
-        if order.size:
-            matrix.off_diagonal[:-1] = np.add.reduceat(blocks.reshape(-1, 9)[order], start, axis=0)
-        np.add.at(matrix.diagonal, slot_of, full.diagonal)
-        own = blocks[inside] + blocks[inside].transpose(0, 2, 1)
-        np.add.at(matrix.diagonal, inside_slot, own.reshape(-1, 9)[:, UPPER])
+        sums = self._sums_of_blocks(full.sparsity, sparsity, *entries)
+        upper, lower, own = (each.astype(full.dtype, copy=False) for each in sums)
+        blocks = np.concatenate([full.off_diagonal[:-1].reshape(-1, 3, 3), unpack_symmetric(full.diagonal)])
+        blocks, turned = blocks.reshape(-1, 9), blocks.transpose(0, 2, 1).reshape(-1, 9)
+        matrix.off_diagonal[:-1] = upper @ blocks + lower @ turned
+        matrix.diagonal[:] = (own @ (blocks + turned))[:, UPPER]
         return matrix
 
-    def _merge_map(self, whole: BlockSparsity, part: BlockSparsity, rows: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Map of the blocks of all free nodes to those of independent ones; it depends on the patterns alone."""
-        if whole not in self._maps:
-            slot_of = np.empty(whole.nodes.size, np.int64)
-            slot_of[whole.order] = part.order[rows]
-            row = slot_of[np.repeat(np.arange(whole.nodes.size), np.diff(whole.row_start))]
-            column, count = slot_of[whole.columns], part.nodes.size
-            key = np.minimum(row, column) * count + np.maximum(row, column)
-            inside = np.flatnonzero(row == column)
-            order = np.argsort(key, kind="stable")
-            order = order[row[order] != column[order]]
-            start = np.flatnonzero(np.diff(key[order], prepend=-1))  # the blocks of `part` are in this order
-            self._maps[whole] = order, start, np.flatnonzero(row > column), inside, row[inside], slot_of
-        return self._maps[whole]
+    def _sums_of_blocks(
+        self, whole: BlockSparsity, part: BlockSparsity, source: np.ndarray, target: np.ndarray, weight: np.ndarray
+    ) -> list[csr_array]:
+        """Find the matrices by which blocks of `whole` are summed to those of `part`; the patterns alone decide them.
+
+        Returns
+        -------
+        list of csr_array
+            From the blocks above the diagonal and then those on it: to those above the diagonal, the same from the
+            transposed blocks, and to those on the diagonal from each block plus its transpose.
+        """
+        if (whole, part) in self._maps:
+            return self._maps[whole, part]
+        from scipy.sparse import csr_array
+
+        slots, rows = whole.order[source], np.arange(whole.nodes.size)
+        order = np.argsort(slots, kind="stable")
+        to, weight = part.order[target[order]].astype(np.int64), weight[order]
+        entries = np.bincount(slots, minlength=rows.size)
+        first = np.cumsum(entries) - entries
+        row, column = np.append(np.repeat(rows, np.diff(whole.row_start)), rows), np.append(whole.columns, rows)
+        several = entries[row] * entries[column]
+        block = np.repeat(np.arange(row.size), several)
+        pair = np.arange(block.size) - np.repeat(np.cumsum(several) - several, several)
+        one = first[row[block]] + pair // entries[column[block]]
+        other = first[column[block]] + pair % entries[column[block]]
+        used = (block < whole.blocks) | (one <= other)
+        block, one, other = block[used], one[used], other[used]
+        weights = weight[one] * weight[other] * np.where(one == other, 0.5, 1.0)
+        ends, count = np.sort(np.stack([to[one], to[other]]), axis=0), part.nodes.size
+        known = np.repeat(np.arange(count), np.diff(part.row_start)) * count + part.columns
+        place = np.searchsorted(known, ends[0] * count + ends[1])
+        cases = (
+            (to[one] < to[other], place, part.blocks),
+            (to[one] > to[other], place, part.blocks),
+            (to[one] == to[other], ends[0], count),
+        )
+        self._maps[whole, part] = sums = [
+            csr_array((weights[of], (at[of], block[of])), shape=(height, row.size)) for of, at, height in cases
+        ]
+        return sums

@@ -34,7 +34,7 @@ class Sliding(Protocol):
 
 
 class Motion:
-    """Motion of the nodes of a mesh: free, in planes and along lines, tied to others, or on a surface.
+    """Motion of the nodes of a mesh: free, in planes and along lines, tied to others, between them, or on a surface.
 
     A linear map T takes steps of the independent nodes to steps of all free nodes. Its blocks of 3 x 3 are the
     projectors of the linear motion, with the rotations of tied nodes, and for nodes on a surface the projectors onto
@@ -59,9 +59,12 @@ class Motion:
     free : (k,) int32
         Nodes that move, ascending.
     nodes : (j,) int32
-        Independent nodes: those that are not tied. Row i of a step belongs to nodes[i] and all that follow it.
+        Independent nodes: those that neither are tied nor hang. Row i of a step belongs to nodes[i] and all that follow
+        it.
     row : (k,) int32 or None
-        Index in `nodes` of each free node, or of its master; None if no free node is tied.
+        Index in `nodes` of each free node, or of its master, or of one on which it hangs; None if all are independent.
+    hanging : tuple of (w,) int64, (w,) int64, (w,) float64
+        Indices in `free` of nodes that hang and of those on which they hang, with the weights of these.
     bent : (b,) int64
         Nodes where T is not the identity; those of other ranks come last.
     projected : (p,) int64
@@ -85,11 +88,16 @@ class Motion:
         self.unit = mesh.mean_edge_length or 1.0
         self.free = self.nodes = np.flatnonzero(mesh.free if owned is None else mesh.free & owned).astype(np.int32)
         self.row: np.ndarray | None = None
-        if linear is not None and mesh.free[linear.tied].any():
-            self.root = linear.roots(n)
-            own = self.root[self.free] == self.free
-            self.nodes, self._own, self._tied = self.free[own], np.flatnonzero(own), np.flatnonzero(~own)
-            self.row = index_of(self.nodes, n)[self.root[self.free]]
+        self.hanging = NO_NODES, NO_NODES, np.empty(0)
+        if linear is not None and mesh.free[np.concatenate([linear.tied, linear.hanging])].any():
+            own, number = linear.leads(n)[self.free], index_of(self.free, n)
+            self.nodes, self._own = self.free[own], np.flatnonzero(own)
+            self.row = index_of(self.nodes, n)[linear.roots(n)[self.free]]
+            self.tied = np.flatnonzero((self.row >= 0) & ~own)
+            ends = number[linear.hanging].astype(np.int64), number[linear.anchors].astype(np.int64)
+            moves = (ends[0] >= 0) & (ends[1] >= 0)
+            self.hanging = ends[0][moves], ends[1][moves], linear.weights[moves]
+            self.row[self.hanging[0]] = self.row[self.hanging[1]]
         nodes, self._turn = _linear_blocks(linear, mesh.free)
         self.bent = np.concatenate([nodes, projected])
         here = self.bent if owned is None else self.bent[owned[self.bent]]
@@ -107,14 +115,14 @@ class Motion:
 
     @property
     def has_parts(self) -> bool:
-        """True if nodes move independently of each other: that of a part of the mesh has the same form."""
+        """True if nodes move independently of each other, so that parts of the mesh have motions of the same form."""
         return self.row is None and self.sliding is None
 
     def on_part(self, part: Mesh, nodes: np.ndarray) -> Motion:
         """Return the motion of a part of the mesh, from its nodes' numbers (p,) in the mesh; surfaces have no parts."""
         linear, number = self.mesh.linear_motion, index_of(nodes, self.mesh.n_nodes)
         if linear is not None:
-            part = part.with_linear_motion(linear.renumbered(number)).with_fixed(part.fixed)
+            part = part.with_motion_of_rules(linear.renumbered(number)).with_fixed(part.fixed)
         if self.owned is None:
             return Motion(part)
         moving = np.where(mask(nodes[part.free], self.mesh.n_nodes), number, -1)
@@ -144,17 +152,29 @@ class Motion:
         """Give steps of the independent nodes (j, 3) to all free nodes, (k, 3), by blocks of the first of `bent`."""
         if self.is_free:
             return steps
-        return self._turned(steps.copy() if self.row is None else steps.take(self.row, axis=0), turn)
+        steps = self._turned(steps.copy() if self.row is None else steps.take(self.row, axis=0), turn)
+        self._hang(steps)
+        return steps
+
+    def _hang(self, steps: np.ndarray) -> None:
+        """Give nodes that hang the weighted sums of the steps of others; steps of all free nodes (k, 3) are changed."""
+        nodes, anchors, weights = self.hanging
+        if nodes.size:
+            steps[nodes] = 0.0
+            np.add.at(steps, nodes, weights[:, None] * steps[anchors])
 
     def contract(self, x: np.ndarray, forces: np.ndarray) -> np.ndarray:
         """Reduce vectors of the free nodes, (k, 3), overwritten, to the independent ones, (j, 3), by T^T at x."""
         if self.is_free:
             return forces
+        nodes, anchors, weights = self.hanging
+        if nodes.size:
+            np.add.at(forces, anchors, weights[:, None] * forces[nodes])
         forces = self._turned(forces, self.turn(x).transpose(0, 2, 1))
         if self.row is None:
             return forces
         sums = forces[self._own]
-        np.add.at(sums, self.row[self._tied], forces[self._tied])
+        np.add.at(sums, self.row[self.tied], forces[self.tied])
         return sums
 
     def _turned(self, vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
@@ -184,6 +204,11 @@ class Motion:
         step_limits.displaced(x, self.free, steps, alpha, there)
         if self.projected.size:
             there[self.projected] = self._project(there.take(self.projected, axis=0))
+            if self.hanging[0].size:
+                steps = there.take(self.free, axis=0) - x.take(self.free, axis=0)
+                self._hang(steps)
+                at = self.hanging[0]
+                there[self.free[at]] = x[self.free[at]] + steps[at]
         return there
 
     def _project(self, x: np.ndarray) -> np.ndarray:
@@ -234,8 +259,9 @@ class Motion:
         return None if self.sliding is None else self.sliding.rejected(x * self.unit, there * self.unit, changed)
 
     def with_tied(self, marks: np.ndarray) -> np.ndarray:
-        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them."""
-        return marks if self.row is None else mask(self.root[marks], marks.size)[self.root]
+        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them, or on which they hang."""
+        linear = self.mesh.linear_motion
+        return marks if self.row is None or linear is None else linear.with_coupled(marks)
 
 
 def _linear_blocks(motion: LinearMotion | None, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -8,7 +8,6 @@ Term of an energy that the quads of a sliding boundary add: value, gradient, and
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Self
 
 import numpy as np
 
@@ -22,14 +21,14 @@ from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.energy.quads.quad_energy import QuadCorners, power_derivatives
 from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
-from hexmend.energy.terms import ElementBlocks
+from hexmend.energy.terms import ElementBlocks, Term
 from hexmend.kernels import sliding_surface
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.solid_cells import SOLID_KINDS, WEDGE, cell_faces, kinds_of
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceTerm:
+class SurfaceTerm(Term):
     """Sum of weight eta(Q)^p over the quads of a boundary, with normals and delta that are held for a step.
 
     Parameters
@@ -61,8 +60,6 @@ class SurfaceTerm:
     blocks: ElementBlocks
     has_lengths: bool = False
 
-    limits_moves = False
-
     @property
     def total_weight(self) -> float:
         """Sum of the weights of the quads: the term has so many times the value of a hex if all of them are squares."""
@@ -73,13 +70,6 @@ class SurfaceTerm:
         with np.errstate(over="ignore"):
             energy = np.maximum(self.corners(x).energies(norm.offset), 0.0)
             return self.weight * float(np.power(energy, norm.p).sum())
-
-    def beyond(self, x: np.ndarray, there: np.ndarray) -> None:
-        """Return None: it limits no moves; see `hexmend.energy.terms.Term`."""
-
-    def on_part(self, nodes: np.ndarray, moves: np.ndarray, x: np.ndarray) -> Self:
-        """Raise `NotImplementedError`: it is made for what moves."""
-        raise NotImplementedError
 
     def gradient(self, x: np.ndarray, norm: ObjectiveNorm) -> np.ndarray:
         """Compute the gradient by all nodes, (n, 3); see `value`."""

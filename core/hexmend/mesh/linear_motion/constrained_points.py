@@ -11,7 +11,7 @@ _ROUNDING_PASSES = 2
 
 
 def constrained_points(motion: LinearMotion, given: np.ndarray, points: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Return the points nearest to some that keep linear constraints; tied nodes are placed after their masters.
+    """Return the points nearest to some that keep linear constraints; tied and hanging nodes follow the others.
 
     Positions are computed from the given ones, so that rounding errors do not accumulate. A coordinate that a projector
     keeps is the given one to the last bit. Where a tied node is a translated copy, its coordinates differ from its
@@ -44,13 +44,17 @@ def constrained_points(motion: LinearMotion, given: np.ndarray, points: np.ndarr
     _round_masters(points, given, master, np.where(translated, shift, 0.0))
     turned = given[tied] + _times(rotations, points[master] - given[master])
     points[tied] = np.where(translated & (points[master] != given[master]), points[master] + shift, turned)
+    hanging, sums = motion.sums_of_anchors(points)
+    moves = free[hanging]
+    points[hanging[moves]] = (sums + (given[hanging] - motion.sums_of_anchors(given)[1]))[moves]
     return points
 
 
 def admissible_displacements(motion: LinearMotion, displacements: np.ndarray) -> np.ndarray:
     """Project displacements of all nodes, (n, 3), onto the admissible ones, in least squares; (n, 3).
 
-    Nodes that move as one get the mean of their displacements, each in its own frame.
+    Nodes that move as one get the mean of their displacements, each in its own frame; hanging ones those of their
+    anchors.
     """
     answer = displacements.copy()
     tied, master, rotations = motion.tied, motion.master, motion.rotations
@@ -59,15 +63,23 @@ def admissible_displacements(motion: LinearMotion, displacements: np.ndarray) ->
     answer /= 1 + count[:, None]
     answer[motion.nodes] = _times(motion.projectors, answer[motion.nodes])
     answer[tied] = _times(rotations, answer[master])
+    hanging, sums = motion.sums_of_anchors(answer)
+    answer[hanging] = sums
     return answer
 
 
 def with_ties_fixed(motion: LinearMotion, fixed: np.ndarray) -> np.ndarray:
-    """Return marks of fixed nodes, (n,) bool, to which nodes are added that stay because a node tied to them stays."""
+    """Return marks of fixed nodes, (n,) bool, to which nodes are added that stay because a node tied to them stays.
+
+    A hanging node that stays holds its anchors, and stays where these do.
+    """
     fixed = fixed.copy()
     fixed[motion.nodes[motion.ranks == 0]] = True
+    fixed[motion.anchors[fixed[motion.hanging]]] = True
     fixed[motion.master[fixed[motion.tied]]] = True
     fixed[motion.tied] = fixed[motion.master]
+    fixed[motion.hanging] = True
+    fixed[motion.hanging[~fixed[motion.anchors]]] = False
     return fixed
 
 

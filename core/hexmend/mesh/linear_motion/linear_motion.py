@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,11 @@ import numpy as np
 from hexmend.arrays import as_immutable, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import subspaces
+from hexmend.mesh.linear_motion.hanging_nodes import (
+    resolved_anchors,
+    restrictions_of_anchors,
+    rows_without_hanging,
+)
 from hexmend.mesh.linear_motion.subspaces import TOLERANCE, fixed_spaces, rounded
 from hexmend.mesh.topology.components import components
 from hexmend.mesh.validation import as_array, as_integers, as_reals
@@ -22,9 +27,10 @@ _MATRIX_ERROR = 1e-6
 class LinearMotion:
     """Linear constraints on the displacements of nodes: they move in planes, along lines, or as others do.
 
-    The arrays are brought to a standard form: each node is there once, nodes ascend, the restrictions of a tied node
-    become restrictions of its master, and chains of ties end at one master. Where constraints of a node meet, its
-    displacements are those that all of them admit.
+    The arrays are brought to a standard form: each node is there once, nodes ascend, the restrictions of a tied or
+    hanging node become restrictions of its masters, and chains end at masters that are neither tied nor hanging. Where
+    constraints of a node meet, its displacements are those that all of them admit. A hanging node that is tied to one
+    that does not hang stays.
 
     Parameters
     ----------
@@ -38,6 +44,10 @@ class LinearMotion:
         Node that each of them follows.
     rotations : (t, 3, 3) float64
         The displacement of tied[i] is rotations[i] times that of master[i].
+    hanging, anchors : (w,) int32
+        Nodes that hang between others, and these: a row for each of them.
+    weights : (w,) float64
+        The displacement of a hanging node is the sum of those of its anchors times their weights.
 
     Raises
     ------
@@ -56,15 +66,27 @@ class LinearMotion:
     tied: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
     master: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
     rotations: np.ndarray = field(default_factory=lambda: np.empty((0, 3, 3)))
+    hanging: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
+    anchors: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))
+    weights: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        nodes, tied, master = (_as_numbers(getattr(self, name), name) for name in ("nodes", "tied", "master"))
+        names = ("nodes", "tied", "master", "hanging", "anchors")
+        nodes, tied, master, hanging, anchors = (_as_numbers(getattr(self, name), name) for name in names)
         projectors = _as_matrices(self.projectors, "projectors", nodes.size)
         rotations = _as_matrices(self.rotations, "rotations", tied.size)
         if master.size != tied.size:
             raise MeshError(f"{tied.size} tied nodes have {master.size} masters: expected one for each")
         _check(nodes, "projector", "symmetric with P P = P", projectors @ projectors.transpose(0, 2, 1) - projectors)
         _check(tied, "rotation", "R R^T = 1", rotations @ rotations.transpose(0, 2, 1) - np.eye(3))
+        if hanging.size:
+            hanging, anchors, weights = resolved_anchors(hanging, anchors, self._weights(hanging.size, anchors.size))
+            self._set(hanging=hanging.astype(np.int32), anchors=anchors.astype(np.int32), weights=weights)
+            one, other = np.isin(tied, hanging), np.isin(master, hanging)
+            stays, alone = np.concatenate([tied[one ^ other], master[one ^ other]]), ~(one | other)
+            tied, master, rotations = tied[alone], master[alone], rotations[alone]
+            nodes, projectors = np.append(nodes, stays), np.concatenate([projectors, np.zeros((stays.size, 3, 3))])
+            nodes, projectors = restrictions_of_anchors(nodes, projectors, hanging, anchors)
         tied, master, rotations, axis_nodes, axes = resolved(tied, master, subspaces.rounded(rotations))
         nodes, projectors = np.concatenate([nodes, axis_nodes]), np.concatenate([projectors, axes])
         row = np.searchsorted(tied, nodes)
@@ -76,12 +98,21 @@ class LinearMotion:
         self._set(nodes=nodes[restricted].astype(np.int32), projectors=projectors[restricted])
         self._set(tied=tied, master=master, rotations=rotations)
 
+    def _weights(self, *sizes: int) -> np.ndarray:
+        """Check the weights of hanging nodes, of as many rows as there are hanging nodes and anchors."""
+        weights = as_reals(self.weights, "weights")
+        if {*sizes} != {weights.size} or weights.ndim != 1:
+            raise MeshError(
+                f"weights have shape {weights.shape}: expected ({sizes[0]},), one for each hanging node and anchor"
+            )
+        return weights
+
     def _set(self, **values: np.ndarray) -> None:
         for name, value in values.items():
             object.__setattr__(self, name, as_immutable(value))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return LinearMotion, (self.nodes, self.projectors, self.tied, self.master, self.rotations)
+        return LinearMotion, tuple(getattr(self, one.name) for one in fields(self))
 
     @classmethod
     def in_planes(cls, nodes: np.ndarray, normals: np.ndarray) -> LinearMotion:
@@ -143,10 +174,30 @@ class LinearMotion:
         matrix = np.eye(3) if rotation is None else _as_matrices([rotation], "rotation", 1)[0]
         return cls(tied=tied, master=master, rotations=np.tile(matrix, (tied.size, 1, 1)))
 
+    @classmethod
+    def between(cls, rows: np.ndarray) -> LinearMotion:
+        """Let nodes hang at the mean of four others: rows (h, 5) int of a node and of these, as `Topology.hanging`."""
+        rows = as_integers(rows, "rows", ("row", "node")).reshape(-1, 5)
+        return cls(hanging=rows[:, 0].repeat(4), anchors=rows[:, 1:].ravel(), weights=np.full(4 * len(rows), 0.25))
+
     def merge(self, other: LinearMotion) -> LinearMotion:
-        """Combine the constraints of both; a displacement is admissible if it is so for both."""
-        names = ("nodes", "projectors", "tied", "master", "rotations")
-        return LinearMotion(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+        """Combine the constraints of both; a displacement is admissible if it is so for both.
+
+        A node that hangs in both hangs on its anchors in the first.
+        """
+        if not other:
+            return self
+        new = ~np.isin(other.hanging, self.hanging)
+        values = {one.name: (getattr(self, one.name), getattr(other, one.name)) for one in fields(self)}
+        for name in ("hanging", "anchors", "weights"):
+            values[name] = values[name][0], values[name][1][new]
+        return LinearMotion(**{name: np.concatenate(both) for name, both in values.items()})
+
+    def without_hanging(self) -> LinearMotion:
+        """Return the constraints of the nodes that do not hang."""
+        if not self.hanging.size:
+            return self
+        return LinearMotion(self.nodes, self.projectors, self.tied, self.master, self.rotations)
 
     def renumbered(self, number: np.ndarray) -> LinearMotion:
         """Return the constraints in other node numbers.
@@ -154,7 +205,8 @@ class LinearMotion:
         Parameters
         ----------
         number : (n,) int
-            New number of each node, -1 if it is removed. Nodes that followed a removed one follow one of them.
+            New number of each node, -1 if it is removed. Nodes that followed a removed one follow one of them; for
+            those that hang on it, it stays.
 
         Returns
         -------
@@ -175,8 +227,10 @@ class LinearMotion:
         master, rotations = master.copy(), rotations.copy()
         rotations[rows] = rotations[rows] @ turns.transpose(0, 2, 1)
         master[rows] = names
-        kept = number[nodes] >= 0
-        return LinearMotion(number[nodes[kept]], projectors[kept], number[tied], number[master], rotations)
+        kept, hangs = number[nodes] >= 0, (number[self.hanging] >= 0) & (number[self.anchors] >= 0)
+        hanging, anchors = number[self.hanging[hangs]], number[self.anchors[hangs]]
+        ties = number[tied], number[master], rotations
+        return LinearMotion(number[nodes[kept]], projectors[kept], *ties, hanging, anchors, self.weights[hangs])
 
     @cached_property
     def ranks(self) -> np.ndarray:
@@ -186,7 +240,8 @@ class LinearMotion:
     @cached_property
     def largest_node(self) -> int:
         """The largest node number, -1 if there is none."""
-        return int(max(part.max(initial=-1) for part in (self.nodes, self.tied, self.master)))
+        parts = self.nodes, self.tied, self.master, self.hanging, self.anchors
+        return int(max(part.max(initial=-1) for part in parts))
 
     def roots(self, n: int) -> np.ndarray:
         """Node that each of n nodes moves with: the master of a tied node, else itself; (n,) int64."""
@@ -195,8 +250,31 @@ class LinearMotion:
         return roots
 
     def marks(self, n: int) -> np.ndarray:
-        """Mark the nodes, of n, that are restricted, tied, or followed by others, (n,) bool."""
-        return mask(np.concatenate([self.nodes, self.tied, self.master]), n)
+        """Mark the nodes, of n, that are restricted, tied, followed by others, or hang, (n,) bool."""
+        return mask(np.concatenate([self.nodes, self.tied, self.master, self.hanging]), n)
+
+    def leads(self, n: int) -> np.ndarray:
+        """Mark the nodes, of n, that neither follow others nor hang, (n,) bool."""
+        return ~mask(np.concatenate([self.tied, self.hanging]), n)
+
+    def with_coupled(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that move with them, or on which they hang."""
+        marks, roots = marks.copy(), self.roots(marks.size)
+        marks[self.anchors[marks[self.hanging]]] = True
+        marks = mask(roots[marks], marks.size)[roots]
+        marks[self.hanging[marks[self.anchors]]] = True
+        return marks
+
+    def sums_of_anchors(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Hanging nodes, each once, (h,), and the weighted sums of vectors (n, 3) of their anchors, (h, 3)."""
+        first = np.flatnonzero(np.diff(self.hanging, prepend=-1))
+        return self.hanging[first], np.add.reduceat(self.weights[:, None] * vectors[self.anchors], first, axis=0)
+
+    def independent_rows(self, elements: np.ndarray, n: int) -> np.ndarray:
+        """Rows (j, 8) of nodes, of n, that lead: two are together if they move the same cell of `elements` (m, 8)."""
+        if self.hanging.size:
+            elements = rows_without_hanging(elements, self.hanging, self.anchors)
+        return self.roots(n)[elements]
 
     def __bool__(self) -> bool:
         return self.largest_node >= 0

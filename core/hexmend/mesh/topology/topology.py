@@ -119,16 +119,24 @@ class Topology:
         return mask(self.elements.ravel(), self.n)
 
     @cached_property
-    def _faces(self) -> tuple[np.ndarray, int]:
+    def _faces(self) -> tuple[np.ndarray, int, np.ndarray]:
         neighbours, nonmanifold = incidence.face_neighbours(*self._corners_of_nodes)
-        return close_split_faces(self.elements, neighbours), nonmanifold
+        closed, hanging = close_split_faces(self.elements, neighbours)
+        return closed, nonmanifold, hanging
+
+    @cached_property
+    def hanging(self) -> np.ndarray:
+        """Nodes in the middle of edges and faces of coarser cells, with their masters, (h, 5) int32.
+
+        See `close_split_faces`.
+        """
+        return self._faces[2]
 
     @property
     def face_neighbours(self) -> np.ndarray:
         """Neighbour across each face of `hexmend.mesh.solid_cells.SolidKind.faces`, (m, 6) int32.
 
-        -1 on the boundary; the cell itself for a face that its kind does not have, and for a quad that two triangles
-        cover.
+        -1 on the boundary; the cell itself for a face that its kind does not have, and where several faces cover one.
         """
         return self._faces[0]
 

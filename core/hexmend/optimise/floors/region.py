@@ -33,12 +33,12 @@ class Region:
 
     def __init__(self, energy: MeshEnergy, moves: np.ndarray, x: np.ndarray | None = None):
         mesh = energy.mesh
-        moves = energy.with_tied(moves & mesh.free)
+        moves = energy.with_tied(moves & mesh.free) & mesh.free
         attached = np.flatnonzero(moves[mesh.elements].any(axis=1))
         self.hexes = attached = attached if attached.size else np.array([0])  # those that move are other ranks'
         self.nodes = np.flatnonzero(mask(mesh.elements[attached], mesh.n_nodes))
         number = index_of(self.nodes, mesh.n_nodes)
-        part = Mesh(mesh.points[self.nodes], number[mesh.elements[attached]]).with_fixed(~moves[self.nodes])
+        part = Mesh.of_cells(mesh.points[self.nodes], number[mesh.elements[attached]], ~moves[self.nodes])
         self.energy = energy.on_part(part, attached, self.nodes, x)
 
     def inside(self, x: np.ndarray) -> np.ndarray:

@@ -19,7 +19,13 @@ from hexmend.io.formats.vtk.grid import HEXAHEDRON
 from hexmend.io.slices import GridSlice
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import MIRRORED_CORNERS
-from hexmend.ranks.divided.checks import check_divisible, check_nodes, left_handed_hexes, mean_edge_length
+from hexmend.ranks.divided.checks import (
+    NotDivisibleError,
+    check_divisible,
+    check_nodes,
+    left_handed_hexes,
+    mean_edge_length,
+)
 from hexmend.ranks.divided.divided_mesh import Directory, DividedMesh, PieceCells, send_rows
 from hexmend.ranks.mpi_ranks import MPIRanks
 from hexmend.ranks.rank_part import RankPart, too_many_ranks
@@ -163,8 +169,10 @@ def _part(
         which = left_handed_hexes(ranks, x, hexes, ids, owned)
         hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     whole = Mesh(as_immutable_owned(x), as_immutable_owned(hexes), pinned=pins)
+    if ranks.any(whole.topology.hanging.size > 0):
+        raise NotDivisibleError("it has hanging nodes, which move with nodes of several hexes")
     fixed = ranks.complete(whole.fixed.astype(np.uint8)).astype(bool)  # a node's owner has all its hexes
-    mesh = Mesh(whole.points, whole.hexes).with_fixed(fixed)
+    mesh = Mesh.of_cells(whole.points, whole.hexes, fixed)
     part = RankPart(mesh, ranks, numbers.astype(np.int32), owned, counted, ranks.sum(int(counted.sum())))
     mesh._set(mean_edge_length=mean_edge_length(part, ids))
     return part

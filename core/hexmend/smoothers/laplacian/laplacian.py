@@ -14,7 +14,7 @@ from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Topology
+from hexmend.optimise.constrained_sweeps import colours_of_independent
 from hexmend.parameters import parameter
 from hexmend.quality import measure
 from hexmend.smoothers.base import Steps, Sweep, method
@@ -93,9 +93,7 @@ class ConstrainedMeans:
     def __init__(self, mesh: Mesh, chosen: np.ndarray, guard: str = ""):
         self._mesh, self._guard, self.rejected = mesh, guard, 0
         self._root = mesh.linear_motion.roots(mesh.n_nodes)
-        independent = np.zeros(mesh.n_nodes, dtype=bool)
-        independent[self._root[chosen & mesh.free]] = True
-        self._colours = Topology(self._root[mesh.elements], mesh.n_nodes).colouring(independent)
+        self._colours = colours_of_independent(mesh, chosen)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Return the points (n, 3) after a sweep; `rejected` counts the moves that were rejected in it."""
@@ -105,15 +103,16 @@ class ConstrainedMeans:
         return points
 
     def _moved(self, points: np.ndarray, masters: np.ndarray) -> np.ndarray:
-        mesh, rings = self._mesh, self._mesh.topology.rings
+        mesh, rings, motion = self._mesh, self._mesh.topology.rings, self._mesh.linear_motion
         group = index_of(masters, mesh.n_nodes)[self._root]
+        np.maximum.at(group, motion.hanging, group[motion.anchors])
         nodes = np.flatnonzero((group >= 0) & (np.diff(rings.start) > 0))
         count = np.diff(rings.start)[nodes]
         sums = np.add.reduceat(points[rings.of(nodes)], np.cumsum(count) - count, axis=0)
         steps = np.zeros(points.shape)
         steps[nodes] = sums / count[:, None] - points[nodes]
         moved = points.copy()
-        moved[nodes] += admissible_displacements(mesh.linear_motion, steps)[nodes]
+        moved[nodes] += admissible_displacements(motion, steps)[nodes]
         if self._guard:
             rejected = self._harmed(points, moved, group, masters.size)
             moved[nodes] = np.where(rejected[group[nodes], None], points[nodes], moved[nodes])

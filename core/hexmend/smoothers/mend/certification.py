@@ -13,7 +13,6 @@ from hexmend.energy.barriers.validity_barrier import ValidityBarrier
 from hexmend.energy.terms import Term, Terms
 from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.solid_cells import kinds_of
 from hexmend.optimise.floors.movable_hexes import MovableHexes
 from hexmend.optimise.floors.region import Region
 from hexmend.optimise.search_direction import TruncatedNewton
@@ -88,14 +87,13 @@ def certify_hexes(
 
 
 def curable_hexes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    """Mark the invalid hexes that can become valid, (m,) bool; of other cells those with a corner that is not positive.
+    """Mark the invalid cells that can become valid, (m,) bool.
 
     They have a free node, and no corner that fixed nodes lock in inversion. Of hexes that overlap at a node wherever it
     is, the worst stays invalid.
     """
     locked = locked_hexes(mesh.points, mesh.elements, mesh.fixed, quality.inverted)
     curable = quality.invalid & ~locked & mesh.free[mesh.elements].any(axis=1)
-    curable &= (kinds_of(mesh.elements) == 0) | quality.inverted
     overlapping = mesh.topology.overlapping_corners
     for node in np.flatnonzero(np.diff(overlapping.start)):
         hexes = np.unique(overlapping[node] // 8)

@@ -9,6 +9,7 @@ from hexmend.cli.output.text_tables import print_parameters
 from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY
 from hexmend.io import write
+from hexmend.mesh.solid_cells import count_cells
 from hexmend.parameters import from_strings
 from hexmend.terminal_text import count_phrase
 
@@ -26,5 +27,5 @@ def run(args: argparse.Namespace) -> int:
         raise ParameterError("no output file is given: expected -o MESH, as in -o five-side.vtu")
     mesh = recipe.build()
     write(args.output, mesh)
-    print(f"{args.output}: {count_phrase(mesh.n_hexes, 'hex', 'hexes')}, {count_phrase(mesh.n_nodes, 'node')}")
+    print(f"{args.output}: {count_cells(mesh.elements)}, {count_phrase(mesh.n_nodes, 'node')}")
     return 0

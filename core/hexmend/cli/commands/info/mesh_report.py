@@ -161,7 +161,7 @@ def _print_locked(args: argparse.Namespace, mesh: Mesh, locking: Locking) -> Non
 
 def _print_problems(args: argparse.Namespace, mesh: Mesh, findings: Sequence[Finding]) -> None:
     if args.doctor and not findings:
-        print("The doctor finds no problems. Use hexmend smooth to improve the shape of hexes.")
+        print("The doctor finds no problems. Use hexmend smooth to improve the shape of cells.")
     for finding in findings:
         print(f"note: {finding.message} {finding.remedy}".rstrip())
         if args.doctor and finding.location_text():

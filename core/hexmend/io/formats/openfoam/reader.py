@@ -16,6 +16,7 @@ from hexmend.io.formats.openfoam.boundary import DEFAULT_PATCH, Patch, read_patc
 from hexmend.io.formats.openfoam.case import SUFFIXES, CaseFiles, find_case
 from hexmend.io.formats.openfoam.foam_file import FoamFile
 from hexmend.io.formats.openfoam.lists import read_faces, read_labels, read_vectors
+from hexmend.io.formats.openfoam.split_cells import cells_with_split_faces
 from hexmend.io.formats.openfoam.topology import standard_order
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
@@ -58,7 +59,19 @@ class PolyMesh:
         start = np.concatenate([[0], np.cumsum(counts)])
         is_owner = order < len(self.owner)  # which sees the face in reverse: its normal points out of the cell
         narrow = RaggedArray(self.faces.start, self.faces.values.astype(np.int32))  # half of the memory to go through
-        found = cells_from_faces(narrow, RaggedArray(start, numbers[order]), is_owner)
+        cells = RaggedArray(start, numbers[order])
+        found = cells_from_faces(narrow, cells, is_owner)
+        other = np.ones(self.n_cells, bool)
+        for which, _ in found.values():
+            other[which] = False
+        at = np.flatnonzero(other)
+        if at.size:
+            own = np.repeat(other, cells.lengths)
+            rest = RaggedArray(np.concatenate([[0], np.cumsum(cells.lengths[at])]), cells.values[own])
+            for kind, (which, nodes) in cells_with_split_faces(self.points, narrow, rest, is_owner[own]).items():
+                known = found.get(kind, (at[:0], nodes[:0]))
+                which, nodes = np.append(known[0], at[which]), np.concatenate([known[1], nodes])
+                found[kind] = np.sort(which), nodes[np.argsort(which)]
         return {kind: (which, standard_order(kind, nodes)) for kind, (which, nodes) in found.items()}
 
 
@@ -154,15 +167,15 @@ def _blocks(poly: PolyMesh, cells: dict, zones: dict[str, np.ndarray]) -> list[B
 
 def _sides(poly: PolyMesh, faces: np.ndarray, hex_of: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Rows of a side set for faces: the hex on one side, the owner if both are hexes, and the row of FACES."""
-    faces = faces[poly.faces.lengths[faces] == 4]
-    own = hex_of[poly.owner[faces]]
+    own, lengths = hex_of[poly.owner[faces]], poly.faces.lengths[faces]
     inner = (own < 0) & (faces < len(poly.neighbour))
     own[inner] = hex_of[poly.neighbour[faces[inner]]]
-    faces, own = faces[own >= 0], own[own >= 0]
-    nodes = poly.faces.values[poly.faces.start[faces][:, None] + np.arange(4)]
-    corners = np.sort(hexes[own][:, FACES], axis=2)
-    alike = (corners == np.sort(nodes, axis=1)[:, None, :]).all(axis=2)
-    return np.column_stack([own, alike.argmax(axis=1)])
+    faces, own, lengths = (each[(own >= 0) & (lengths >= 4)] for each in (faces, own, lengths))
+    places = np.minimum(np.arange(int(lengths.max(initial=4))), lengths[:, None] - 1)
+    nodes = poly.faces.values[poly.faces.start[faces][:, None] + places]  # with those that hang at its edges
+    alike = (hexes[own][:, FACES][..., None] == nodes[:, None, None, :]).any(axis=3).all(axis=2)
+    is_whole = alike.any(axis=1)  # others are parts of a split face
+    return np.column_stack([own, alike.argmax(axis=1)])[is_whole]
 
 
 def _boundary_of_others(poly: PolyMesh, hex_of: np.ndarray) -> list[Block]:
@@ -195,5 +208,5 @@ def _polyhedra(poly: PolyMesh, cells: dict) -> tuple[np.ndarray | None, tuple[st
     at[: len(poly.neighbour)] |= other[poly.neighbour]
     pinned = mask(poly.faces.values[np.repeat(at, poly.faces.lengths)], len(poly.points))
     found = count_phrase(n_other, "polyhedron is", "polyhedra are")
-    note = f"{found} kept in the case alone (cells with hanging nodes, or collapsed), and their nodes are fixed."
+    note = f"{found} kept in the case alone, and their nodes are fixed."
     return pinned, (note,), {"polyhedral shape": n_other}

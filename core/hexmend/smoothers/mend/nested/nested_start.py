@@ -198,7 +198,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
         Of the mesh.
     """
     motion = energy.mesh.linear_motion
-    tied = motion is not None and motion.tied.size > 0
+    tied = motion is not None and motion.tied.size + motion.hanging.size > 0
     if energy.motion.projected.size or energy.surface is not None:
         return None
     if energy.ranks is not ONE_RANK or mesh.element_target is not None or tied:
@@ -216,7 +216,7 @@ def coarse_problem(mesh: Mesh, energy: MeshEnergy) -> CoarseProblem | None:
 def _coarse_mesh(points: np.ndarray, fine: Mesh, refinement: Refinement) -> Mesh:
     """The coarse mesh, of points (n, 3) of the fine one, with its fixed nodes and linear motion."""
     vertices, motion = refinement.vertices, fine.linear_motion
-    coarse = Mesh(points[vertices], refinement.hexes)
+    coarse = Mesh.of_cells(points[vertices], refinement.hexes, fine.fixed[vertices])
     if motion is not None:
         coarse = coarse.with_linear_motion(motion.renumbered(refinement.number), fine.motion_start[vertices])
     return coarse.with_fixed(fine.fixed[vertices])

@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
-from hexmend import FileError, io, summarise
+from hexmend import FileError, io, smooth, summarise
 from hexmend.io.formats.openfoam import times
 from hexmend.io.formats.openfoam.foam_text import read_times
 from hexmend.mesh.hexahedron import FACES
@@ -23,6 +23,8 @@ from tests.core.io.formats.openfoam.foam_cases import (
     write_cube,
 )
 from tests.core.io.kept import assert_refused
+from tests.core.linear_motions import scrambled_within
+from tests.core.smoothers.test_hanging_nodes import octree
 
 ENCODINGS = [None, (32, 64), (64, 64), (32, 32), (64, 32)]
 #: A cube and a second one behind it in x, which is cut into two wedges, or has another kind of cell.
@@ -125,6 +127,43 @@ def test_cells_with_hanging_nodes_stay_in_the_case_and_their_nodes_are_fixed(tmp
     for name in ("faces", "owner", "neighbour", "boundary"):
         path = f"constant/polyMesh/{name}"
         assert (out / path).read_bytes() == (tmp_path / "two" / path).read_bytes()
+
+
+def split_loops(mesh):
+    """Faces as OpenFOAM has them, with their cells: hanging nodes are in their edges, and none covers others."""
+    middle = {frozenset(row[1:].tolist()): int(row[0]) for row in mesh.topology.hanging}
+    sides = {}
+    for cell, row in enumerate(mesh.hexes[:, FACES].tolist()):
+        for face in row:
+            sides.setdefault(frozenset(face), []).append((cell, face))
+    coarse = {middle[face]: sides.pop(face)[0][0] for face in middle if face in sides}
+    loops = []
+    for (cell, face), *others in sides.values():
+        ends = zip(face, face[1:] + face[:1], strict=True)
+        loop = [node for a, b in ends for node in (a, middle.get(frozenset((a, b)))) if node is not None]
+        across = [other for other, _ in others] or [coarse[node] for node in face if node in coarse]
+        loops.append((loop, [cell, *across]))
+    return loops
+
+
+def test_cells_beside_refined_ones_are_hexes_whose_hanging_nodes_move_with_them(tmp_path):
+    perfect = octree()
+    mesh = scrambled_within(perfect, 0.1)
+    loops = split_loops(mesh)
+    inner = [(loop, cells) for loop, cells in loops if len(cells) == 2]
+    outer = [(loop, cells) for loop, cells in loops if len(cells) == 1]
+    turned = [(loop[::-1], cells[::-1]) if cells[0] > cells[1] else (loop, cells) for loop, cells in inner]
+    faces, owner = [loop for loop, _ in turned + outer], [cells[0] for _, cells in turned + outer]
+    patch = {"walls": ("wall", len(inner), len(outer))}
+    write_case(tmp_path / "case", mesh.points.tolist(), faces, owner, [cells[1] for _, cells in turned], patch)
+    read = io.read(tmp_path / "case")
+    assert max(map(len, faces)) > 4
+    assert [read.n_hexes, read.notes, read.pinned] == [mesh.n_hexes, (), None]
+    np.testing.assert_array_equal(np.sort(read.hexes, axis=1), np.sort(mesh.hexes, axis=1))
+    np.testing.assert_array_equal(read.topology.hanging[:, 0], mesh.topology.hanging[:, 0])
+    assert len(read.side_sets["walls"]) == len(outer)
+    after = smooth(read, "mend").mesh
+    np.testing.assert_allclose(after.points, perfect.points, atol=1e-6)
 
 
 @pytest.mark.parametrize("binary", [False, True])
