@@ -27,7 +27,6 @@ from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
 from hexmend.padding.sides import padded_cells, padded_side_set
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
-from hexmend.run.progress import ProgressOption
 from hexmend.terminal_text import count_phrase
 
 #: Hexes around which `pad` can lay a layer.
@@ -115,7 +114,7 @@ def pad(
     thickness: float | None = None,
     *,
     mend: bool = True,
-    progress: ProgressOption = None,
+    progress: bool | None = None,
     watch: Callable[[Iteration], Any] | None = None,
 ) -> Padding:
     """Lay a layer of hexes under the boundary of a mesh, and mend it with the boundary fixed.
