@@ -182,7 +182,7 @@ class DividedSource:
             if args.as_is:
                 agreed(comm, lambda: check_divided_orientation(mesh))
             if method.keeps_layers and may_have_layers(mesh.part):
-                raise NotDivisibleError("it may have boundary layers, which --layers off does not keep")
+                raise NotDivisibleError("it may have boundary layers, which --layers free does not keep")
         except NotDivisibleError as error:
             if not comm.rank:
                 print(f"hexmend: rank 0 reads the whole mesh: {error}", file=sys.stderr, flush=True)
