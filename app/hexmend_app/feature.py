@@ -217,7 +217,7 @@ class Feature(QObject):
         shortage = self.session.commands.shortage(works)
         if shortage is None:
             return True
-        remedy = shortage.remedy(tr("isolate a region and pin the rest (Hex menu)"), titled=True)
+        remedy = shortage.remedy(tr("isolate a region and pin the rest (Hex menu)"))
         return ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy)
 
     def try_and_report(self, failure: str, act: Callable[[], object]) -> bool:

@@ -46,7 +46,7 @@ def uninterrupted(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def is_interruptible(frame: FrameType | None) -> bool:
-    """Return True if an exception raised in a frame reaches its callers: not in imports or uninterrupted functions.
+    """Return True if an exception raised in a frame leaves no work half done: not in uninterrupted functions.
 
     Parameters
     ----------
@@ -54,8 +54,7 @@ def is_interruptible(frame: FrameType | None) -> bool:
         Frame that a signal has interrupted.
     """
     while frame is not None:
-        code = frame.f_code
-        if code in UNINTERRUPTED_CODE or code.co_filename.startswith("<frozen importlib"):
+        if frame.f_code in UNINTERRUPTED_CODE:
             return False
         frame = frame.f_back
     return True

@@ -36,7 +36,7 @@ SCRIPT = """
 import hexmend as hx
 
 mesh = hx.read("part.inp")
-result = hx.smooth(mesh, hx.Mend(goal="shape"), max_iterations=50, progress=print)
+result = hx.smooth(mesh, hx.Mend(goal="shape"), max_iterations=50, watch=print)
 worst = mesh.quality("q")[mesh.worst(10)].min() + result.after.q_min
 inverted: int = mesh.quality().inverted
 hx.smoth(mesh)

@@ -194,18 +194,6 @@ def suggest_newton(now: Situation) -> Suggestion | None:
     return Suggestion("Mend, goal = shape", text, now.aim, Mend(**{**now.objective, "goal": "shape"}))
 
 
-def tighten_tolerance(now: Situation) -> Suggestion | None:
-    """Suggest the usual tolerance for an optimiser that ended early under a larger one."""
-    usual, own = StoppingCriteria().tolerance, now.stop.tolerance
-    if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.unlocked.size:
-        return None
-    if own <= usual or not now.improving or _detours(now):  # whose stages end for reasons of their own
-        return None
-    stop, keeping = with_last_kept(now, replace(now.stop, tolerance=usual))
-    text = f"Run it once more with a tolerance of {usual:g} in place of {own:g}: it still gained.{keeping}"
-    return Suggestion("Tighter tolerance", text, now.aim, now.smoother, stop)
-
-
 def optimum(now: Situation) -> Suggestion | None:
     """Suggest Mend after a heuristic."""
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
@@ -224,15 +212,6 @@ def improve_worst(now: Situation) -> Suggestion | None:
     return Suggestion("GETMe, sequential", text, "q_min", SequentialGETMe())
 
 
-def regularise(now: Situation) -> Suggestion | None:
-    """Suggest a positive delta, without which the energy of inverted hexes has no gradient."""
-    if not now.unlocked.size or getattr(now.smoother, "delta", None) != 0 or now.smoother.delta_policy != "fixed":
-        return None
-    usual = type(now.smoother)().delta
-    text = f"Run the same with δ = {usual:g}: with δ = 0 the energy of an inverted hex is infinite."
-    return Suggestion(f"δ = {usual:g}", text, "inverted", replace(now.smoother, delta=usual))
-
-
 RULES: tuple[Rule, ...] = (
     unpin,
     release,
@@ -240,13 +219,11 @@ RULES: tuple[Rule, ...] = (
     untangle,
     slide,
     slide_near_invalid,
-    regularise,
     undo_inversion,
     continue_run,
     resume,
     restart_longer,
     suggest_newton,
-    tighten_tolerance,
     optimum,
     improve_worst,
 )

@@ -71,22 +71,6 @@ def target_matrices(mesh: Mesh, unit: float = 1.0, which: np.ndarray | None = No
     return TargetMatrices(unit / (lengths if which is None else lengths[which]), mesh.element_target.size_weight)
 
 
-def hex_sizes(mesh: Mesh) -> np.ndarray | float:
-    """Lengths to whose cubes sigma and delta of the hexes are relative.
-
-    Parameters
-    ----------
-    mesh : Mesh
-
-    Returns
-    -------
-    (m,) float64 or float
-        Cube roots of the volumes that the hexes are to have; without a target the mean edge length of the mesh.
-    """
-    lengths = wanted_lengths(mesh)
-    return (mesh.mean_edge_length or 1.0) if lengths is None else np.cbrt(lengths.prod(axis=1))
-
-
 def node_sizes(mesh: Mesh) -> np.ndarray | float:
     """Lengths to which moves of nodes are relative.
 

@@ -27,15 +27,12 @@ from hexmend.padding.regions import around_sheet, set_sheet, whole_sheet
 from hexmend.padding.sides import padded_cells, padded_side_set
 from hexmend.quality import Summary, locked_hexes, measure, summarise
 from hexmend.run import smooth
-from hexmend.run.progress import ProgressOption
 from hexmend.terminal_text import count_phrase
 
 #: Hexes around which `pad` can lay a layer.
 AROUND = ("locked", "inverted")
 #: Nodes that a message names.
 _MAX_NAMED = 5
-#: Share by which the mean thickness may differ from that which was asked for before the message says so.
-_THICKNESS_DIFFERENCE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +51,6 @@ class Padding:
         The run that mended the mesh; None if it was not mended.
     settings : mapping of str to str
         Settings of the run that mends the mesh.
-    asked_thickness : float or None
-        Thickness of the layer that was asked for, in the mesh's unit of length.
     """
 
     mesh: Mesh
@@ -64,7 +59,6 @@ class Padding:
     after: Summary
     run: Result | None = None
     settings: Mapping[str, str] = field(default_factory=dict)
-    asked_thickness: float | None = None
 
     def mended(self, run: Result) -> Padding:
         """Return the padding with the mesh that a run has mended."""
@@ -90,9 +84,6 @@ class Padding:
         left, mean = self.after.inverted, self.thickness.mean()
         layer = f"The layer has {count_phrase(len(self.layer), 'hex', 'hexes')}, of mean thickness {mean:.3g}"
         words = [f"{layer}." if left else f"{layer} and least thickness {self.thickness.min():.3g}."]
-        asked = self.asked_thickness
-        if asked is not None and abs(mean - asked) > _THICKNESS_DIFFERENCE * asked:
-            words.append(f"{asked:g} was requested, but the shape of the mesh leaves no space for it.")
         if left:
             words.append(f"{count_phrase(left, 'hex is', 'hexes are')} inverted.")
             if self.run is None:
@@ -115,7 +106,7 @@ def pad(
     thickness: float | None = None,
     *,
     mend: bool = True,
-    progress: ProgressOption = None,
+    progress: bool | None = None,
     watch: Callable[[Iteration], Any] | None = None,
 ) -> Padding:
     """Lay a layer of hexes under the boundary of a mesh, and mend it with the boundary fixed.
@@ -165,7 +156,7 @@ def pad(
     before, padded = summarise(mesh), padded_mesh(_sheet(mesh, name, around, rings), thickness)
     settings: dict[str, Any] = {} if thickness is None else {"target": "given-shape"}
     layer = np.arange(mesh.n_hexes, padded.n_hexes)
-    padding = Padding(padded, layer, before, summarise(padded), settings=settings, asked_thickness=thickness)
+    padding = Padding(padded, layer, before, summarise(padded), settings=settings)
     return padding.mended(smooth(padded, progress=progress, watch=watch, **settings)) if mend else padding
 
 

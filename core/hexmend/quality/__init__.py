@@ -16,12 +16,10 @@ from hexmend.quality.regressions import REGRESSION_KEYS, describe_regressions, r
 from hexmend.quality.summary import (
     SUMMARY_QUANTITIES,
     MetricStatistics,
-    SecondOrderSummary,
     Summary,
     metric_statistics,
     objective,
     summarise,
-    summarise_second_order,
 )
 
 for _module in pkgutil.iter_modules(metrics.__path__):
@@ -37,7 +35,6 @@ __all__ = [
     "Metric",
     "MetricStatistics",
     "Q",
-    "SecondOrderSummary",
     "Summary",
     "corner_determinants",
     "corner_qualities",
@@ -51,7 +48,6 @@ __all__ = [
     "rank_worst",
     "regressions",
     "summarise",
-    "summarise_second_order",
     "target_quality",
     "worst_hexes",
 ]

@@ -13,7 +13,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.parameters import declared, suggestion
-from hexmend.run.progress import ProgressOption, progress_display
+from hexmend.run.progress import progress_display
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
@@ -86,7 +86,7 @@ def smooth(
     method: Smoother | Recipe | str = DEFAULT_METHOD,
     stop: StoppingCriteria | None = None,
     *,
-    progress: ProgressOption = None,
+    progress: bool | None = None,
     watch: Callable[[Iteration], Any] | None = None,
     **settings: Any,
 ) -> Result:
@@ -100,10 +100,9 @@ def smooth(
         A method, the name of one to be used with its defaults (see `hexmend.METHODS`), or a recipe.
     stop : StoppingCriteria, optional
         Limits; for a recipe they replace those of every stage.
-    progress : bool or callable, optional
+    progress : bool, optional
         By default a run of more than half a second shows a bar on a terminal (on standard error) and in a notebook.
-        True shows its progress elsewhere too, a line every few seconds; False shows nothing; a function is called with
-        each iteration.
+        True shows its progress elsewhere too, a line every few seconds; False shows nothing.
     watch : callable, optional
         Called with each iteration; the run is stopped if it returns False.
     **settings

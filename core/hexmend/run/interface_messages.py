@@ -66,23 +66,11 @@ def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialV
     if not moved:
         kept = count_phrase(nodes.size, "node on their interfaces was", "nodes on their interfaces were")
         return f"{many}: {kept} kept."
-    freely = int(np.count_nonzero(_is_free(before)[nodes[has_moved]]))
-    some = f"moved, {freely:,} of these off them freely" if freely else "slid along them"
-    motion = "moved off them freely" if freely == moved else some
     largest = max((abs(volume.change) for volume in volumes.values()), default=0.0)
     return (
-        f"{many}: {moved:,} of {count_phrase(nodes.size, 'node')} on their interfaces {motion}; no material's volume "
+        f"{many}: {moved:,} of {count_phrase(nodes.size, 'node')} on their interfaces moved; no material's volume "
         f"changed by more than {100 * largest:.2g} %."
     )
-
-
-def _is_free(mesh: Mesh) -> np.ndarray:
-    """Mark the nodes that no interface holds, (n,) bool: not those that move in their plane, or as one with others."""
-    if mesh.interfaces is None:
-        return np.ones(mesh.n_nodes, dtype=bool)
-    rules, motion = mesh.node_rules, mesh.linear_motion
-    free = np.zeros(mesh.n_nodes, dtype=bool) if rules.free is None else rules.free
-    return free if motion is None else free & ~motion.marks(mesh.n_nodes)
 
 
 def _inner_nodes(mesh: Mesh) -> np.ndarray:

@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import Smoother
 from hexmend.terminal_text import count_phrase, listed
 
 #: Bytes of every run, however small the mesh: SciPy with its libraries, and memory that the allocator retains.
@@ -23,9 +23,6 @@ A_FACE = 4500
 #: Bytes of address space that libraries and threads reserve without using them; a limit of RLIMIT_AS includes them.
 _RESERVED = 256 << 20
 
-#: Methods needing less memory that are named at most.
-_MAX_NAMED = 3
-
 
 @dataclass(frozen=True)
 class Shortage:
@@ -39,16 +36,12 @@ class Shortage:
         Number of hexes of the mesh.
     needed, available : int
         Bytes.
-    lighter : tuple of (type, int)
-        Methods for which memory suffices, with the bytes they need: those of the same kind first, then in ascending
-        order.
     """
 
     title: str
     hexes: int
     needed: int
     available: int
-    lighter: tuple[tuple[type[Smoother], int], ...]
 
     @property
     def problem(self) -> str:
@@ -58,20 +51,9 @@ class Shortage:
             f"memory, and {format_bytes(self.available)} are free."
         )
 
-    def remedy(self, *more: str, titled: bool = False) -> str:
-        """Return what the user can do, as a sentence.
-
-        Parameters
-        ----------
-        more : str
-            Further remedies.
-        titled : bool
-            Call methods by their titles and not by their names.
-        """
-        methods = [f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter]
-        lighter = [f"use {listed(methods, 'or')}, which need less"] if methods else []
-        remedies = listed([*lighter, "close other programs", "smooth a smaller mesh", *more], "or")
-        return f"{remedies[:1].upper()}{remedies[1:]}."
+    def remedy(self, *more: str) -> str:
+        """Return what the user can do, and further remedies, as a sentence."""
+        return f"Close other programs, {listed(['smooth a smaller mesh', *more], 'or')}."
 
 
 def shortage(method: Smoother | Recipe, mesh: Mesh | int, free: int | None) -> Shortage | None:
@@ -90,11 +72,7 @@ def shortage(method: Smoother | Recipe, mesh: Mesh | int, free: int | None) -> S
     need = needed(method, mesh)
     if need <= free:
         return None
-    optimises = not isinstance(method, Recipe) and method.optimises
-    others = [(cls, needed(cls(), mesh)) for cls in METHODS.values()]
-    fitting = [(cls, size) for cls, size in others if size <= free]
-    lighter = sorted(fitting, key=lambda one: (one[0].optimises != optimises, one[1]))[:_MAX_NAMED]
-    return Shortage(method.title, mesh if isinstance(mesh, int) else mesh.n_elements, need, free, tuple(lighter))
+    return Shortage(method.title, mesh if isinstance(mesh, int) else mesh.n_elements, need, free)
 
 
 def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
@@ -108,6 +86,7 @@ def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
 
     Examples
     --------
+    >>> from hexmend.smoothers import METHODS
     >>> needed(METHODS["mend"](), 1_000_000) // 10**6, needed(METHODS["local-sd"](), 1_000_000) // 10**6
     (1267, 467)
     """

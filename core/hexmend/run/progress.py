@@ -9,18 +9,13 @@ from contextlib import suppress
 from html import escape
 from importlib import import_module
 from time import monotonic
-from typing import Any, Generic, Protocol, TypeAlias, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from hexmend.errors import ParameterError
-from hexmend.iteration import Iteration
 from hexmend.run.run import Run
 from hexmend.terminal_text import in_notebook, redraws_lines
 
 T = TypeVar("T", contravariant=True)
-
-#: Values of the argument `progress`: None shows a bar where somebody watches, True shows progress anywhere, False
-#: nothing; a function is called with each iteration in place of a bar.
-ProgressOption: TypeAlias = bool | Callable[[Iteration], Any] | None
 
 #: Seconds after which a bar appears (a short run shows none), between its changes, and between lines.
 BAR_DELAY, BAR_INTERVAL, LINE_INTERVAL = 0.4, 0.1, 4.0
@@ -41,15 +36,11 @@ class ProgressDisplay(Protocol[T]):
         """Remove what changes in place."""
 
 
-class CallingDisplay:
-    """Calls a function with each iteration; None for no display."""
+class NoDisplay:
+    """Display that shows nothing."""
 
-    def __init__(self, function: Callable[[Iteration], Any] | None = None):
-        self._function = function
-
-    def show(self, run: Any) -> None:
-        if self._function is not None:
-            self._function(run.last)
+    def show(self, state: Any) -> None:
+        pass
 
     def close(self) -> None:
         pass
@@ -86,22 +77,25 @@ class TimedDisplay(Generic[T]):
                 self._erase()
 
 
-def progress_display(option: ProgressOption) -> ProgressDisplay[Run]:
-    """Make the display for a value of the argument `progress`; see `ProgressOption`.
+def progress_display(option: bool | None) -> ProgressDisplay[Run]:
+    """Make the display for a value of the argument `progress`.
+
+    Parameters
+    ----------
+    option : bool or None
+        None shows a bar where somebody watches, True shows progress anywhere, False nothing.
 
     Raises
     ------
     ParameterError
         For another value.
     """
-    if callable(option):
-        return CallingDisplay(option)
     if option is not None and not isinstance(option, bool):
-        raise ParameterError(f"progress = {option!r}: expected True, False, None, or a function of an iteration")
+        raise ParameterError(f"progress = {option!r}: expected True, False or None")
     notebook = in_notebook()
     watched = notebook or (sys.stderr is not None and sys.stderr.isatty())
     if option is False or (option is None and not watched):
-        return CallingDisplay()
+        return NoDisplay()
     if notebook:
         bar = _NotebookBar()
         return TimedDisplay(bar.write, bar.erase, BAR_DELAY, 2 * BAR_INTERVAL)
@@ -134,7 +128,7 @@ def line_display(
         return TimedDisplay(
             lambda state: _write(f"{text(state)}\n"), lambda: None, delay=LINE_INTERVAL, interval=LINE_INTERVAL
         )
-    return CallingDisplay()
+    return NoDisplay()
 
 
 def current_method(run: Run) -> str:

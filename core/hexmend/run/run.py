@@ -16,7 +16,7 @@ from hexmend.mesh.orientation import check_orientation
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_more_rules
 from hexmend.mesh.solid_cells import nouns
-from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
+from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, invalid_phrase, kept_message, name_invalid
@@ -235,9 +235,7 @@ class Run(Iterator[Iteration]):
             words.append(f"Mid-nodes inside the mesh were moved, which made {valid} of second order valid.")
         target_q = self._target_q
         words.append(describe_regressions(before, after, target_q))
-        if not invalid:
-            words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
-        else:
+        if invalid:
             mesh = self._result_mesh
             words.append(name_invalid(mesh, measure(mesh.points, mesh.elements, mesh.mid_nodes)))
             words.append(describe_overlap(self.mesh))

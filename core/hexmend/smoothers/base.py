@@ -206,15 +206,16 @@ class Smoother(Parametrised, ABC):
         """
         return ()
 
-    def regression_hint(self, worse: tuple[str, ...]) -> str:
-        """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""
-        return ""
-
     @classmethod
     def to_json(cls) -> dict[str, Any]:
         """The method's entry in `hexmend methods --json`."""
         parameters = [declaration.to_json() for declaration in declared(cls)]
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
+
+
+def figures_of_merit(quality: ElementQuality) -> np.ndarray:
+    """Figures of merit that heuristics raise, (3,) float64: minus the number of inverted hexes, q_min, q_mean."""
+    return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])
 
 
 def objective_of_sound(quality: ElementQuality, norm: ObjectiveNorm) -> float:

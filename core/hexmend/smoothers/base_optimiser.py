@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import POLICIES, ObjectiveNorm
+from hexmend.energy import ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
 from hexmend.errors import MeshError, ParameterError
 from hexmend.kernels.line_search import LineSearch
@@ -112,12 +112,6 @@ class Optimiser(ObjectiveSmoother):
         high=10,
         unit="mean edge length³",
         help="Regularisation of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
-    )
-    delta_policy: str = parameter(
-        "fixed",
-        choices=tuple(POLICIES),
-        help="fixed: delta as given; adaptive: larger for deeply inverted hexes, falling to delta as they recover.",
-        advanced=True,
     )
     delta_unit: str = parameter(
         "edge",

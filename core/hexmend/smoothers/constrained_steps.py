@@ -14,7 +14,7 @@ from hexmend.iteration import Outcome, Step
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.base import Smoother, Steps, Sweep
+from hexmend.smoothers.base import Smoother, Steps, Sweep, figures_of_merit
 
 #: Halvings of a projected step around hexes that it would invert, before their nodes stay.
 HALVINGS = 4
@@ -66,14 +66,14 @@ def _projected_steps(smoother: Smoother, mesh: Mesh) -> Steps:
     """Move all nodes by the admissible part of their steps."""
     points = mesh.constrained(mesh.points)
     quality, idle = measure(points, mesh.elements), 0
-    best = _merit(quality)
+    best = figures_of_merit(quality)
     yield Step(points)
     while idle < PATIENCE:
         step = _next_step(smoother, mesh.with_points(points))
         if step is None:
             return Outcome.FINISHED
         points, quality = _without_inversions(mesh, points, step.points - points, quality)
-        now = _merit(quality)
+        now = figures_of_merit(quality)
         idle = 0 if (now > best + RISE).any() else idle + 1
         best = np.maximum(best, now)
         yield Step(points, step.diagnostics, quality=quality)
@@ -113,7 +113,3 @@ def _without_inversions(
         near = motion.with_coupled(mask(mesh.elements[harmed], mesh.n_nodes))
         moves[near] *= 0.5 if halving < HALVINGS else 0.0
     return points, quality
-
-
-def _merit(quality: ElementQuality) -> np.ndarray:
-    return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])

@@ -256,7 +256,7 @@ def test_hexes_that_are_invalid_between_their_corners_are_not_fit(tmp_path, caps
     last = run_command("smooth", path, "-o", out, status=4).out.splitlines()[-1]
     assert last.startswith("Not fit for solving: 1 hex of second order has sound corners, but a Jacobian that is")
     line, record = ended(tmp_path / "edge.vtu", bent(inside=False), capsys)
-    assert line.startswith("Not fit for solving: of the hexes of second order 1 of 8 are invalid")
+    assert line.startswith("Not fit for solving: 1 of 8 hexes is invalid inside")
 
 
 # `hexmend info --for SOLVER`: the table, the verdict, JSON, and unknown solvers.

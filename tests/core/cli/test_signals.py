@@ -27,10 +27,8 @@ sys.exit(main(sys.argv[1:]))
 SLOW_TO_WRITE = """
 import signal, sys, time
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
-from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.cli.main import main
 import hexmend.io
-FinishWriting.grace = 0.1
 from hexmend.io.base.format import FORMATS
 whole = FORMATS["vtu"].write
 def write(path, mesh, encoding):

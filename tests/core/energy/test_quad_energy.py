@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import POLICIES, ObjectiveNorm
+from hexmend.energy import ObjectiveNorm
 from hexmend.energy.quads import SurfaceQuads
 from hexmend.energy.quads.quad_energy import QuadCorners
 from tests.core.boundary.solids import slid
@@ -74,7 +74,7 @@ def with_quads(solid, seed, p, offset=1.0):
     there, norm = slid(SOLIDS[solid](), 0.2, seed), ObjectiveNorm(p, offset)
     sliding = SlidingBoundary(SOLIDS[solid]())
     energy = projected_energy(sliding, norm)
-    term = SurfaceQuads(sliding, norm, 3.0).at(there.points, 0.05, POLICIES["fixed"](0.05))
+    term = SurfaceQuads(sliding, norm, 3.0).at(there.points, 0.05, 0.05)
     x = energy.to_edge_units(there.points)
     return energy.with_surface(term), x, along_the_surface(sliding, there.points, seed)
 
@@ -97,22 +97,22 @@ def test_gradient_and_hessian_of_the_mesh_are_those_of_differences(solid, seed, 
 
 def test_corners_between_curves_and_between_fixed_nodes_count_as_perfect():
     sliding = SlidingBoundary(grid(2))
-    term = SurfaceQuads(sliding, ObjectiveNorm(), 1.0).at(sliding.mesh.points, 0.0, POLICIES["fixed"](0.01))
+    term = SurfaceQuads(sliding, ObjectiveNorm(), 1.0).at(sliding.mesh.points, 0.0, 0.01)
     assert (term.counted.sum(axis=1) == 3).all()  # one corner of each quad lies between two edges of the cube
     pinned = SlidingBoundary(grid(2).replace(pinned=np.arange(27) > 0))
     quads = SurfaceQuads(pinned, ObjectiveNorm(), 1.0)
-    assert not quads.at(pinned.mesh.points, 0.0, POLICIES["fixed"](0.01)).counted.any()
+    assert not quads.at(pinned.mesh.points, 0.0, 0.01).counted.any()
 
 
 def test_quads_are_softened_while_one_is_flipped_or_hexes_are():
     block = grid(3)
-    sliding, policy = SlidingBoundary(block), POLICIES["fixed"](0.02)
+    sliding, softening = SlidingBoundary(block), 0.02
     quads = SurfaceQuads(sliding, ObjectiveNorm(), 1.0)
-    assert quads.at(block.points, 0.0, policy).delta == 0
-    assert quads.at(block.points, 0.3, policy).delta == 0.3
+    assert quads.at(block.points, 0.0, softening).delta == 0
+    assert quads.at(block.points, 0.3, softening).delta == 0.3
     points = block.points.copy()
     node = sliding.nodes[sliding.node_class[sliding.nodes] == 3][0]
     points[node] += 1.5 * sliding.tangent_bases(points[[node]], np.array([node]))[0, :, 0]
-    assert quads.at(points, 0.0, policy).delta == 0.02
+    assert quads.at(points, 0.0, softening).delta == 0.02
     assert quads.objective(points).value is None
     assert quads.objective(np.full_like(points, np.nan)).value is None

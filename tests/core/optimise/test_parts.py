@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import AdaptiveDelta, MeshEnergy, ObjectiveNorm
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.kernels.line_search import LineSearch
@@ -30,7 +30,6 @@ from hexmend.optimise.search_direction import (
     extreme_eigenvalues,
     steepest_descent,
 )
-from hexmend.quality import measure
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
@@ -99,14 +98,6 @@ def test_directions_are_those_of_appendix_a(problem):
     values = np.linalg.eigvalsh(indefinite.assembled(np.float64).matrix().toarray())
     assert shift == pytest.approx(0.001 * values[-1] - values[0], rel=1e-2)
     assert np.vdot(found.vector, gradient) < 0
-
-
-def test_adaptive_delta_gives_the_worst_determinant_the_h_that_is_asked():
-    tangled = scrambled(grid(3), 0.9)
-    for length in (1.0, 50.0):
-        figures = measure(tangled.points * length, tangled.hexes)
-        sigma, delta = figures.sigma.min() / length**3, AdaptiveDelta(0.1).at(figures, length)
-        assert (sigma + np.sqrt(sigma**2 + 4 * delta**2)) / 2 == pytest.approx(0.1)
 
 
 def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():

@@ -230,7 +230,7 @@ def test_rank_0_raises_an_unsound_mesh_alone_and_all_write_it(tmp_path):
     moves = np.random.default_rng(0).uniform(-0.5, 0.5, (np.count_nonzero(boundary), 3))
     points[boundary] += moves * mesh.mean_edge_length
     write(given, mesh.with_points(points))
-    run = on_ranks(2, given, "-o", out, "--layers", "off", "--json", report)
+    run = on_ranks(2, given, "-o", out, "--layers", "free", "--json", report)
     assert "rank 0 raises it alone" in run.stderr, run.stderr
     assert json.loads(report.read_text())["ranks"]["iterations_alone"] > 0
     assert json.loads(report.read_text())["after"]["inverted"] == figures(out)[0]

@@ -1,4 +1,4 @@
-"""Progress of `smooth`: a bar where somebody watches, lines or a function on request, else nothing."""
+"""Progress of `smooth`: a bar where somebody watches, lines on request, else nothing."""
 
 import io
 import sys
@@ -86,7 +86,7 @@ def test_a_terminal_that_goes_away_stops_no_run():
 
 def test_a_function_gets_each_iteration():
     seen = []
-    assert smoothed(seen.append) == ""
+    assert smoothed(watch=seen.append) == ""
     assert [iteration.number for iteration in seen] == [1, 2, 3]
     assert all(isinstance(iteration, hx.Iteration) for iteration in seen)
 
@@ -124,5 +124,5 @@ def test_a_notebook_shows_a_bar_that_changes_in_place(monkeypatch):
 
 @pytest.mark.parametrize("option", [3, "bar", []])
 def test_other_values_are_refused(option):
-    with pytest.raises(ParameterError, match="expected True, False, None, or a function of an iteration"):
+    with pytest.raises(ParameterError, match="expected True, False or None"):
         hx.smooth(MESH, progress=option)

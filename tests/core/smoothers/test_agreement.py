@@ -88,16 +88,6 @@ def test_a_barrier_that_is_not_softened_is_said(name):
     assert result.iterations == 0
 
 
-@pytest.mark.parametrize("name", OPTIMISERS)
-def test_the_adaptive_delta_untangles_and_ends_at_the_same_optimum(name):
-    mesh = gallery.make("cube", size=64, scramble=1.5, seed=3)
-    assert measure(mesh.points, mesh.hexes).n_inverted > 20
-    smoother = made(name, delta_policy="adaptive", getme_iterations=0)
-    after = smooth(mesh, smoother, StoppingCriteria(max_iterations=2000, tolerance=1e-6)).after
-    assert after.inverted == 0
-    assert after.q_mean > 0.999
-
-
 # What every optimiser of (3.3) has: the objective's offset, the unit of delta; and what A.1 measures.
 
 

@@ -61,7 +61,7 @@ def global_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     energy = MeshEnergy(mesh, smoother.norm)
     search = _RecordedSearch(smoother.line_search)
     x = energy.to_edge_units(mesh.points)
-    delta = smoother.policy(energy).at(measure(mesh.points, mesh.elements), energy.hex_sizes)
+    delta = smoother.delta_at(energy, mesh.points)
     patch = Patch(mesh, mesh.points, node, smoother.norm, delta, energy.unit)
     known = patch.fields() | {"method": smoother.name, "unit": energy.unit, "is_global": True}
     taken = descend(energy, x, delta, smoother.direction(), search)

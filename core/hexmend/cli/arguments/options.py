@@ -170,8 +170,7 @@ class Parser(argparse.ArgumentParser):
         if message.startswith(_MISSING):  # an option that is misspelt may be the one that is missing
             options = [word for word in self._words if word.startswith("--")]
             misspelt = [word for word in options if word.partition("=")[0] not in self._option_string_actions]
-            names = message.removeprefix(_MISSING).split(", ")
-            message = self._unknown(misspelt[0]) if misspelt else self._missing(names)
+            message = self._unknown(misspelt[0]) if misspelt else message
         end = "" if message.endswith("?") else "."
         print(f"{self.prog}: {message}{end} {self.prog} --help lists the options.", file=sys.stderr)
         sys.exit(2)
@@ -190,21 +189,7 @@ class Parser(argparse.ArgumentParser):
         hint = suggestion(option, self._option_string_actions).rstrip()
         return f"there is no option {option}" + (f": {hint}" if hint else "")
 
-    def _missing(self, names: Sequence[str]) -> str:
-        """Return the sentence for arguments that are missing, each with its help."""
-        missing = [one for one in self._actions if _identity(one) in names and one.nargs != "*"]
-        return "missing: " + ", and ".join(f"{_usage(one)} ({one.help})" for one in missing)
-
 
 def _name(one: argparse.Action) -> str:
     """Return the name of an option, or of an argument in upper case."""
     return one.option_strings[-1] if one.option_strings else one.dest.upper()
-
-
-def _identity(one: argparse.Action) -> str:
-    """Return the name that argparse uses for an action in its messages."""
-    return "/".join(one.option_strings) or str(one.metavar or one.dest)
-
-
-def _usage(one: argparse.Action) -> str:
-    return f"{one.option_strings[0]} {one.metavar or one.dest.upper()}" if one.option_strings else str(one.metavar)

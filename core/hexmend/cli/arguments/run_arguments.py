@@ -25,14 +25,8 @@ from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 from hexmend.target import SPECIFICATIONS, make_target
 
-#: Parameters with an option of their own, and what is said of methods that do not have them.
-_WITHOUT = {
-    "boundary": "the boundary stays fixed in",
-    "goal": "only mend has goals, not",
-    "surface_tolerance": "the boundary stays fixed in",
-    "target": "there are no targets in",
-    "layers": "there are no targets, which keep layers, in",
-}
+#: Parameters with an option of their own.
+_WITH_OPTION = ("boundary", "goal", "surface_tolerance", "target", "layers")
 
 
 def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
@@ -93,14 +87,13 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
             raise ParameterError(f"{option} and --set {key}=... set the same value: leave out one of them")
         without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
         if without:
-            raise ParameterError(f"{option} {value}: {_WITHOUT[key]} {', '.join(without)}")
+            raise ParameterError(f"{option} {value}: there is no such choice in {', '.join(without)}")
     return settings | options
 
 
 def _given_options(args: argparse.Namespace) -> dict[str, str]:
     """Values of the options that set a parameter, by the parameter."""
-    values = {name: getattr(args, name, None) for name in _WITHOUT}
-    values["layers"] = {"off": "free"}.get(values["layers"], values["layers"])
+    values = {name: getattr(args, name, None) for name in _WITH_OPTION}
     return {name: value for name, value in values.items() if value is not None}
 
 

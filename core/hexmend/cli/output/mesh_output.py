@@ -5,11 +5,12 @@ Messages about a mesh on standard error: changes on reading, problems, losses on
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from hexmend.doctor import examine
+from hexmend.doctor import PROBLEMS, examine
 from hexmend.errors import FileError
 from hexmend.io import Original, replaces_coordinates, unsupported_data, write, write_as_given
 from hexmend.io.base.remedies import unread_content
@@ -53,6 +54,15 @@ def print_problems(path: str, mesh: Mesh) -> None:
     for finding in examine(mesh):
         remedy = f"Run: hexmend repair {path} -o OUT --only {finding.kind}" if finding.mendable else finding.remedy
         print(f"hexmend: {finding.message} {remedy}", file=sys.stderr)
+
+
+def mid_node_advice(path: str, mesh: Mesh) -> str:
+    """Tell what repairs hexes of second order that are invalid between sound corners; "" where there are none."""
+    found = PROBLEMS["mid-nodes"].find(mesh)
+    if found is None:
+        return ""
+    repair = f"Next: hexmend repair {shlex.quote(path)} -o OUT --only {found.kind}" if found.mendable else ""
+    return f"Not fit for solving: {found.message} {found.remedy} {repair}".rstrip()
 
 
 class MeshOutput:

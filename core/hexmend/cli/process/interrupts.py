@@ -1,8 +1,7 @@
 """Handling of the signals that ask the program to end: Ctrl-C, TERM, or a terminal that closes.
 
 A handler never prints, because it may have interrupted a print. It sets a flag, writes with `os.write`, or raises
-`KeyboardInterrupt`. Within an import, a callback or a function that is `uninterrupted` the exception would be lost: it
-is raised afterwards.
+`KeyboardInterrupt`; within a function that is `uninterrupted` that waits until the function returns.
 
 Before a command runs there is nothing to lose, and the process exits at once (`exit_on_signals`). A command runs in
 `CleanExit`, a loop in `ExitAfterIteration`, and results are written in `FinishWriting`.
@@ -25,20 +24,11 @@ if TYPE_CHECKING:
 #: Ctrl-C, a request to terminate, and a terminal that was closed.
 ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
-#: The signal of the timer; None on Windows, where every exception is raised at once.
-_ALARM = getattr(signal, "SIGALRM", None)
-
-#: Seconds until the next attempt to raise an exception that would have been lost.
-_RETRY = 0.02
-
 #: True in the program `hexmend`, False in a process that only calls its `main`.
 _is_program = False
 
-#: The signal that the timer will send; 0 if it is not set.
-_delayed = 0
-
-#: True if the timer waits for a place where an exception can be raised, False if for the end of a grace period.
-_retries = False
+#: The signal whose exception waits for the end of a function that is `uninterrupted`; 0 for none.
+_waiting = 0
 
 
 class TerminationSignal(KeyboardInterrupt):
@@ -89,7 +79,7 @@ def write_line(text: str) -> None:
 
 
 class CleanExit:
-    """Inside the block a signal is an exception; a further one waits until temporary files are removed on the way out.
+    """Inside the block a signal is an exception: temporary files are removed on the way out.
 
     Parameters
     ----------
@@ -101,9 +91,6 @@ class CleanExit:
     number : int
         The first signal that came; 0 if none did.
     """
-
-    #: Seconds for which a further signal waits at most.
-    grace = 2.0
 
     def __init__(self, completes: bool = False):
         self.completes = completes
@@ -121,11 +108,8 @@ class CleanExit:
 
     def __enter__(self) -> Self:
         self._before: dict[int, Any] = {}
-        self._count, self._delays = 0, False
-        self._unraisable, sys.unraisablehook = sys.unraisablehook, self._on_unraisable
+        self._count = 0
         try:
-            if _ALARM is not None:
-                self._before[_ALARM] = signal.signal(_ALARM, self._on_alarm)
             for number in ENDING:
                 if signal.getsignal(number) not in (signal.SIG_IGN, None):
                     self._before[number] = signal.signal(number, self._on_signal)
@@ -135,18 +119,12 @@ class CleanExit:
 
     @uninterrupted  # else some of the handlers could stay
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        alarm = self._before.pop(_ALARM, None)
+        global _waiting
         ignored = kind is None and self.completes and _is_program
-        for number, handler in self._before.items():  # first, because a signal that comes here sets the timer
+        for number, handler in self._before.items():
             signal.signal(number, signal.SIG_IGN if ignored else handler)
-        waiting = _delayed if self._delays else 0
-        if self._delays:
-            self._delay(0, 0.0)
-        if alarm is not None:
-            signal.signal(_ALARM, alarm)
-        sys.unraisablehook = self._unraisable
-        if waiting and kind is None and not self.completes:
-            signal.raise_signal(waiting)  # to the block around this one
+        if kind is not None or self.completes:
+            _waiting = 0
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         self._count += 1
@@ -155,46 +133,11 @@ class CleanExit:
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         """React to a signal; `count` is 1 for the first of the block."""
-        if count == 1:
-            self._raise(number, frame)
+        global _waiting
+        if not is_interruptible(frame):
+            _waiting = number
         else:
-            self._wait(number)
-
-    def _raise(self, number: int, frame: FrameType | None) -> None:
-        """Raise an exception, or set the timer if it would be lost now."""
-        if _ALARM is not None and not is_interruptible(frame):
-            self._delay(number, _RETRY, retries=True)
-            return
-        if self._delays:
-            self._delay(0, 0.0)
-        raise KeyboardInterrupt if number == signal.SIGINT else TerminationSignal(number)
-
-    def _wait(self, number: int) -> None:
-        """Raise an exception if the block has not ended after the grace."""
-        if _ALARM is None:
-            self._raise(number, None)
-        elif not (self._delays and _delayed):
-            self._delay(number, self.grace)
-
-    def _delay(self, number: int, seconds: float, retries: bool = False) -> None:
-        global _delayed, _retries
-        _delayed, _retries, self._delays = number, retries, number != 0
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-
-    def _on_alarm(self, alarm: int, frame: FrameType | None) -> None:
-        global _delayed
-        number, _delayed = _delayed, 0
-        if number and self._delays:
-            self._raise(number, frame)
-        elif number:  # the timer was set by the block around this one
-            self._on_signal(number, frame)
-
-    def _on_unraisable(self, unraisable: Any) -> None:
-        """Raise again an exception that was lost in a callback, such as `__del__`."""
-        if isinstance(unraisable.exc_value, KeyboardInterrupt) and _ALARM is not None:
-            self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY, retries=True)
-        else:
-            self._unraisable(unraisable)
+            raise _exception(number)
 
 
 class ExitAfterIteration(CleanExit):
@@ -220,24 +163,29 @@ class ExitAfterIteration(CleanExit):
 
 
 class FinishWriting(CleanExit):
-    """Inside the block the result is written: the first signal is ignored, the second limits the time for writing."""
-
-    grace = 8.0
+    """Inside the block the result is written: the first signal is ignored, the second is an exception."""
 
     def __init__(self):
         super().__init__(completes=True)
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            write_line(f"Writing the result; after a second Ctrl-C it has {self.grace:g} s left.")
+            write_line("Writing the result; a second Ctrl-C ends at once, and an older file stays as it was.")
         else:
-            self._wait(number)
+            super()._answer(count - 1, number, frame)
+
+
+def _exception(number: int) -> KeyboardInterrupt:
+    """Make the exception of a signal."""
+    return KeyboardInterrupt() if number == signal.SIGINT else TerminationSignal(number)
 
 
 def _raise_waiting() -> None:
     """Raise the exception that was waiting for the end of an `uninterrupted` function."""
-    if _delayed and _retries:
-        signal.raise_signal(_ALARM)
+    global _waiting
+    if _waiting and is_interruptible(sys._getframe()):
+        number, _waiting = _waiting, 0
+        raise _exception(number)
 
 
 ON_RETURN.append(_raise_waiting)

@@ -19,7 +19,6 @@ from hexmend.boundary.sliding.sliding_boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.norm import ObjectiveNorm, SurfaceObjective
 from hexmend.energy.quads.quad_energy import QuadCorners, power_derivatives
-from hexmend.energy.regularisation import DeltaPolicy
 from hexmend.energy.target import wanted_lengths
 from hexmend.energy.terms import ElementBlocks, Term
 from hexmend.kernels import sliding_surface
@@ -162,24 +161,6 @@ class QuadNormals:
 _LEAST_NORMAL = 0.5
 
 
-@dataclass(frozen=True, eq=False)
-class QuadDeterminants:
-    """Determinants of quads, by which a policy chooses delta.
-
-    Parameters
-    ----------
-    sigma : (f,) float64
-        The least of each quad's counted corners.
-    """
-
-    sigma: np.ndarray
-
-    @property
-    def n_inverted(self) -> int:
-        """Number of flipped quads."""
-        return int(np.count_nonzero(~(self.sigma > 0)))
-
-
 class SurfaceQuads:
     """Quads of a boundary whose nodes slide, as a term of the objective: weight times the sum of eta(Q)^p.
 
@@ -213,7 +194,7 @@ class SurfaceQuads:
         )
         self._last: tuple[np.ndarray | None, SurfaceTerm] = None, self._term
 
-    def at(self, points: np.ndarray, delta: float, policy: DeltaPolicy) -> SurfaceTerm:
+    def at(self, points: np.ndarray, delta: float, softening: float) -> SurfaceTerm:
         """Return the term for a step from some points: normals are held, and quads softened while one is flipped.
 
         Parameters
@@ -222,12 +203,12 @@ class SurfaceQuads:
             In the mesh's unit of length.
         delta : float
             That of the hexes, which quads have too if it is greater than theirs.
-        policy : DeltaPolicy
-            Chooses the delta of the quads by their determinants.
+        softening : float
+            The least delta of the quads while one of them is flipped.
         """
         term = self._with_normals(points)
-        found = QuadDeterminants(term.sigma(points / self.unit))
-        return replace(term, delta=max(delta, policy.at(found, 1.0)))
+        is_sound = (term.sigma(points / self.unit) > 0).all()
+        return replace(term, delta=delta if is_sound else max(delta, softening))
 
     def objective(self, points: np.ndarray) -> SurfaceObjective:
         """Compute the term at points (n, 3) in the mesh's unit, for delta = 0; no value if they are not finite."""

@@ -11,8 +11,8 @@ from hexmend.kernels import worst_first
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.base import Steps, method
-from hexmend.smoothers.getme.simultaneous import SWEEP_RISE, figures_of_merit
+from hexmend.smoothers.base import Steps, figures_of_merit, method
+from hexmend.smoothers.getme.simultaneous import SWEEP_RISE
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
 
 #: Halvings of the relaxation before the method ends.

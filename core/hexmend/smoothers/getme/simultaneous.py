@@ -13,7 +13,7 @@ from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.base import Steps, figures_of_merit, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
 #: Least rise of q_min or q_mean that counts.
@@ -76,11 +76,6 @@ class GETMe(SlidingSmoother):
         if self.weights == "paper":
             return np.maximum(1 - q, 1e-12) ** (self.exponent / 2)
         return np.ones(len(q))
-
-
-def figures_of_merit(quality: ElementQuality) -> np.ndarray:
-    """Figures of merit that GETMe raises, (3,) float64: minus the number of inverted hexes, q_min, q_mean."""
-    return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])
 
 
 def _relax_harmful_moves(

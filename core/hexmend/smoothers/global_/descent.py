@@ -5,7 +5,9 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy
+import numpy as np
+
+from hexmend.energy import MeshEnergy
 from hexmend.iteration import Outcome, Step
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
@@ -27,9 +29,13 @@ class GlobalDescent(Optimiser):
     def direction(self) -> DirectionMethod:
         """The search direction: Algorithm A.2, A.3 or A.4."""
 
-    def policy(self, energy: MeshEnergy) -> DeltaPolicy:
-        """Policy of delta, in the energy's unit of length."""
-        return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
+    def softening(self, energy: MeshEnergy) -> float:
+        """The parameter delta in the energy's unit of length."""
+        return self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3)
+
+    def delta_at(self, energy: MeshEnergy, points: np.ndarray) -> float:
+        """delta of a step from points (n, 3): zero in the feasible region, 3.2.4."""
+        return self.softening(energy) if measure(points, energy.mesh.elements).n_inverted else 0.0
 
     def search(self, energy: MeshEnergy) -> LineSearch:
         """Line search along directions in the energy's unit of length."""
@@ -40,14 +46,14 @@ class GlobalDescent(Optimiser):
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         sliding = self.sliding(mesh)
         energy = MeshEnergy(mesh, self.norm) if sliding is None else MeshEnergy.on_surface(sliding, self.norm)
-        find, policy, search = self.direction(), self.policy(energy), self.search(energy)
+        find, search = self.direction(), self.search(energy)
         points = energy.mesh.points
         x, quads = energy.to_edge_units(points), self.surface_quads(sliding)
         yield Step(points, surface=quads and quads.objective(points))
         while True:
-            delta = policy.at(measure(points, mesh.elements), energy.hex_sizes)  # zero in the feasible region, 3.2.4
+            delta = self.delta_at(energy, points)
             if quads is not None:
-                energy = energy.with_surface(quads.at(points, delta, policy))
+                energy = energy.with_surface(quads.at(points, delta, self.softening(energy)))
             taken = descend(energy, x, delta, find, search)
             if taken is None or (taken.alpha == 0 and taken.slope < 0):  # None: inverted, and delta is zero
                 return Outcome.NO_DESCENT

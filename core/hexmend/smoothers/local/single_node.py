@@ -12,9 +12,9 @@ from typing import ClassVar
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy
+from hexmend.energy import MeshEnergy
 from hexmend.energy.quads import SurfaceQuads
-from hexmend.energy.target import hex_sizes, target_matrices
+from hexmend.energy.target import target_matrices
 from hexmend.iteration import Step
 from hexmend.kernels import local
 from hexmend.kernels.target import TargetMatrices
@@ -64,12 +64,12 @@ class LocalOptimiser(Optimiser):
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
-        return self.policy.at(measure(points, mesh.elements), hex_sizes(mesh))
+        return self.softening if measure(points, mesh.elements).n_inverted else 0.0
 
     @property
-    def policy(self) -> DeltaPolicy:
-        """Policy of delta, in mean edge lengths."""
-        return POLICIES[self.delta_policy](self.delta * DELTA_UNITS[self.delta_unit] ** 3)
+    def softening(self) -> float:
+        """The parameter delta in mean edge lengths."""
+        return self.delta * DELTA_UNITS[self.delta_unit] ** 3
 
     def surface_arguments(
         self, sliding: SlidingBoundary | None, quads: SurfaceQuads | None, points: np.ndarray, delta: float
@@ -93,7 +93,7 @@ class LocalOptimiser(Optimiser):
         """
         if sliding is None:
             return lambda moved: ()
-        term = None if quads is None else quads.at(points, delta, self.policy).of_kernels(quads.unit)
+        term = None if quads is None else quads.at(points, delta, self.softening).of_kernels(quads.unit)
         return lambda moved: (sliding.sliding_surface, sliding.tangents(moved), term)
 
 

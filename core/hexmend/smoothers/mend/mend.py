@@ -95,11 +95,6 @@ class Mend(MendSettings):
     def rank_by_points(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
         return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
-    def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.goal != "shape" or not worse or {"inverted", "invalid"} & set(worse):
-            return ""
-        return "With goal=balanced neither q min, q mean nor the minimum scaled Jacobian falls."
-
 
 def _least(values: np.ndarray) -> float:
     return float(values.min(initial=np.inf))

@@ -121,7 +121,7 @@ def test_only_a_free_node_that_exists_has_a_step():
 @pytest.mark.parametrize("shape", ["cube", "five-side"])
 def test_node_by_node_a_sweep_ends_where_the_kernels_does(name, shape):
     mesh = make(shape, size=216, scramble=0.6, seed=2)
-    smoother = METHODS[name](delta_policy="adaptive")
+    smoother = METHODS[name]()
     sweep = Sweep(mesh, smoother)
     assert sweep.delta > 0
     expected = after(mesh, smoother)

@@ -15,8 +15,8 @@ from hexmend import METHODS, Outcome, StoppingCriteria, gallery, measure, smooth
 from hexmend.kernels import getme
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
+from hexmend.smoothers.base import figures_of_merit
 from hexmend.smoothers.getme.sequential import HALVINGS
-from hexmend.smoothers.getme.simultaneous import figures_of_merit
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

@@ -158,13 +158,3 @@ def test_a_node_far_away_in_a_real_mesh_is_brought_back(real_mesh):
     assert result.before.inverted > 0
     assert result.after.inverted == result.after.locked_inverted
     assert np.linalg.norm(result.mesh.points[node] - sound.points[node]) < sound.mean_edge_length
-
-
-@pytest.mark.slow
-def test_where_the_optimum_of_shape_lowers_the_least_the_goal_that_keeps_it_is_named(real_mesh):
-    mesh = read(real_mesh("CAD4.vtk"))
-    shaped, raised = (smooth(mesh, Mend(goal=goal)) for goal in ("shape", "scaled-jacobian"))
-    assert shaped.worse == ("scaled_jacobian",)
-    assert "With goal=balanced neither q min, q mean nor the minimum scaled Jacobian falls." in shaped.message
-    assert raised.worse == ()
-    assert "With goal=balanced" not in raised.message

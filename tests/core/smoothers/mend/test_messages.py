@@ -1,4 +1,4 @@
-"""What methods advise where something got worse, and what mend's steps say while another stage is to come.
+"""What mend's steps say while another stage is to come.
 
 Messages of mend about hexes that fixed nodes lock.
 
@@ -7,8 +7,6 @@ Mend makes hexes valid that are invalid between positive corners.
 The optimum of shape begins at that of the coarse mesh where the mesh is a refinement.
 """
 
-import itertools
-
 import numpy as np
 import pytest
 
@@ -16,8 +14,6 @@ import hexmend as hx
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend.quality.regressions import REGRESSION_KEYS
-from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend import stages
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.mend import Mend
@@ -25,23 +21,6 @@ from hexmend.smoothers.mend.messages import freed_message
 from hexmend.smoothers.mend.nested.nested_start import NestedConfig
 from tests.core.grids import grid, invalid_inside
 from tests.core.refined_meshes import refined, renumbered
-
-#: Every set of figures that can be worse.
-WORSE = [words for count in range(len(REGRESSION_KEYS) + 1) for words in itertools.combinations(REGRESSION_KEYS, count)]
-
-
-@pytest.mark.parametrize("name", METHODS)
-def test_what_is_advised_is_a_text_whatever_got_worse(name):
-    assert all(isinstance(METHODS[name]().regression_hint(words), str) for words in WORSE)
-
-
-def test_mend_advises_the_goal_by_which_nothing_falls_only_where_it_helps():
-    mend = METHODS["mend"]
-    for words in WORSE:
-        advice = mend(goal="shape").regression_hint(words)
-        valid = not {"inverted", "invalid"} & set(words)
-        assert ("goal=balanced" in advice) == (bool(words) and valid)
-        assert mend(goal="scaled-jacobian").regression_hint(words) == mend().regression_hint(words) == ""
 
 
 def with_two_locked_corners():

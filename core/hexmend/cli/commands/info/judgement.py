@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.doctor import Finding
-from hexmend.quality import METRICS, ElementQuality, SecondOrderSummary
+from hexmend.quality import METRICS, ElementQuality
 from hexmend.terminal_text import count_phrase
 
 if TYPE_CHECKING:
@@ -48,7 +48,6 @@ class Judgement:
         locking: Locking | None,
         findings: Sequence[Finding],
         checks: Report | None = None,
-        second_order: SecondOrderSummary | None = None,
         *,
         words: tuple[str, str] = ("hex", "hexes"),
     ) -> Judgement:
@@ -63,8 +62,6 @@ class Judgement:
         findings : sequence of Finding
         checks : Report, optional
             Checks of the user's solver.
-        second_order : SecondOrderSummary, optional
-            Jacobians of the hexes of second order.
         words : (str, str)
             Words for one of its cells and for several.
         """
@@ -77,14 +74,12 @@ class Judgement:
             verb = "is" if inverted == 1 else "are"
             sentence = f"Not fit for solving: {inverted:,} of {count_phrase(total, *words)} {verb} inverted."
             return cls(False, sentence, _untangling(path, quality, locking))
-        if second_order is not None and second_order.invalid:
-            sentence = f"Not fit for solving: of the hexes of second order {second_order.phrase}."
-            return cls(False, sentence, shlex.join(["hexmend", path]))
         if invalid := quality.n_invalid:
             counted = f"{invalid:,} of {count_phrase(total, *words)} {'is' if invalid == 1 else 'are'}"
             undecided = f" ({quality.n_undecided:,} of them undecided)" if quality.n_undecided else ""
             sentence = f"Not fit for solving: {counted} invalid inside, between positive corners{undecided}."
-            return cls(False, sentence, _command("smooth", path))
+            is_bent = any(finding.kind == "mid-nodes" for finding in findings)
+            return cls(False, sentence, shlex.join(["hexmend", path]) if is_bent else _command("smooth", path))
         if faults := [finding for finding in findings if finding.kind not in _CONDITIONS]:
             return cls(False, f"Not fit for solving: {_kinds(faults)}.", shlex.join(["hexmend", path]))
         if checks is not None and checks.verdict == "failed":

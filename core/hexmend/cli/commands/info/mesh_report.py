@@ -20,7 +20,7 @@ from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.materials import CONTACT_CARDS
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.solid_cells import nouns
-from hexmend.quality import ElementQuality, measure, metric_statistics, summarise, summarise_second_order
+from hexmend.quality import ElementQuality, measure, metric_statistics, summarise
 from hexmend.quality.material_volumes import material_volumes
 from hexmend.quantity import format_count
 from hexmend.terminal_text import WorsenedText, count_phrase, printable
@@ -44,14 +44,13 @@ def run(args: argparse.Namespace) -> int:
     quality = measure(mesh.points, mesh.elements, mesh.mid_nodes)
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
-    second_order = summarise_second_order(mesh)
     layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     locking = _locking(mesh, quality)
     checks = _check(mesh, args.solver, quality)
-    findings = _examine(mesh, args.doctor, second_order is not None and second_order.invalid > 0)
+    findings = _examine(mesh, args.doctor, mesh.mid_nodes is not None and quality.n_invalid > 0)
     joined = CONTACT_CARDS in mesh.field_data  # or kept apart, by cards of the file
     faults = [finding for finding in findings if not (joined and finding.kind == "parts")]
-    judgement = Judgement.of(args.mesh, quality, locking, faults, checks, second_order, words=nouns(mesh.elements))
+    judgement = Judgement.of(args.mesh, quality, locking, faults, checks, words=nouns(mesh.elements))
     if args.json:
         from hexmend.report.records import to_json  # not loaded for a report in words
 
@@ -59,8 +58,7 @@ def run(args: argparse.Namespace) -> int:
         if args.metrics:
             answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
         answer |= _materials_record(mesh)
-        parts = {"second_order": second_order, "locking": locking}
-        answer |= {name: part.to_dict() for name, part in parts.items() if part is not None}
+        answer |= {} if locking is None else {"locking": locking.to_dict()}
         answer |= {"layers": layers} if layers else {}
         if checks is not None:
             answer["checks"] = [result.to_dict() for result in checks.results]
@@ -79,8 +77,6 @@ def run(args: argparse.Namespace) -> int:
         from hexmend.run.interface_messages import describe_embedded
 
         print(describe_embedded(mesh))
-    if second_order is not None:
-        print(f"Second order: {second_order.phrase}.")
     for wall in layers:
         print(_layer_line(wall))
     if args.metrics:

@@ -14,8 +14,7 @@ from hexmend.boundary import departures, surface_change
 from hexmend.cli.arguments.run_arguments import check_memory, motion_rules, with_surface
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
 from hexmend.cli.commands.smooth.rank_result import AgreedError, RankResult, agreed
-from hexmend.cli.commands.smooth.second_order import SecondOrderChange
-from hexmend.cli.output.mesh_output import MeshOutput, print_losses, print_notes, print_problems
+from hexmend.cli.output.mesh_output import MeshOutput, mid_node_advice, print_losses, print_notes, print_problems
 from hexmend.errors import ParameterError
 from hexmend.io import read
 from hexmend.io.format_lookup import writable_format
@@ -113,8 +112,8 @@ class WholeSource:
             boundary = surface_change(given, mesh, angle), departures(given, mesh, angle, slides)
         result = self._given.with_points(mesh.points)
         written = self._output.write(result)
-        second_order = SecondOrderChange.of(self._given, result, self._args.output)
-        return RankResult(run, alone, (summarise(given), summarise(mesh)), boundary, written, second_order)
+        advice = mid_node_advice(self._args.output, result)
+        return RankResult(run, alone, (summarise(given), summarise(mesh)), boundary, written, advice)
 
     def _gather(self, points: np.ndarray) -> np.ndarray | None:
         whole = None if self.part.ranks.number else self._given.points
@@ -183,7 +182,7 @@ class DividedSource:
             if args.as_is:
                 agreed(comm, lambda: check_divided_orientation(mesh))
             if method.keeps_layers and may_have_layers(mesh.part):
-                raise NotDivisibleError("it may have boundary layers, which --layers off does not keep")
+                raise NotDivisibleError("it may have boundary layers, which --layers free does not keep")
         except NotDivisibleError as error:
             if not comm.rank:
                 print(f"hexmend: rank 0 reads the whole mesh: {error}", file=sys.stderr, flush=True)

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from hexmend.boundary import Departures, SurfaceChange
-from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.errors import HexmendError
 from hexmend.quality import Summary, describe_regressions
 from hexmend.ranks.rank_run import RankRun
@@ -81,8 +80,8 @@ class RankResult:
         Change of the boundary, and the nodes that have left it; None where it was fixed.
     written : str
         Sentence about the file of the mesh.
-    second_order : SecondOrderChange or None
-        None where the hexes are known to be of first order.
+    advice : str
+        What repairs hexes of second order that are invalid between sound corners; "" where there are none.
     peaks_mb : sequence of float
         Largest memory of each rank, MiB.
     threads : sequence of int
@@ -94,7 +93,7 @@ class RankResult:
     summaries: tuple[Summary, Summary]
     boundary: tuple[SurfaceChange, Departures] | None
     written: str
-    second_order: SecondOrderChange | None = None
+    advice: str = ""
     peaks_mb: Sequence[float] = ()
     threads: Sequence[int] = ()
 
@@ -120,10 +119,9 @@ class RankResult:
     @property
     def lines(self) -> list[str]:
         """Lines below the table of the figures."""
-        of_second_order = self.second_order.lines if self.second_order else []
-        advice = self.second_order.advice if self.second_order and not self.summaries[1].inverted else ""
+        advice = "" if self.summaries[1].inverted else self.advice
         surface = " ".join(filter(None, (one.sentence for one in self.boundary or ())))
-        return list(filter(None, (self.message, *of_second_order, surface, self.written, advice)))
+        return list(filter(None, (self.message, surface, self.written, advice)))
 
     def record(self) -> dict[str, object]:
         """Return the report of --json, with the peak of memory, MiB, and the threads of each rank."""
@@ -145,8 +143,6 @@ class RankResult:
                 "iterations_alone": 0 if alone is None else alone.n_iterations,
             },
         }
-        if self.second_order is not None:
-            self.second_order.add_to(report)
         if self.boundary is not None:
             change, left = self.boundary
             report["surface"] = change.to_dict() | {"left": left.to_dict()}

@@ -14,9 +14,8 @@ from hexmend.advice import advise
 from hexmend.cli.arguments import run_arguments
 from hexmend.cli.arguments.options import DEFAULT_RINGS
 from hexmend.cli.commands.smooth.checkpoint import Checkpoints
-from hexmend.cli.commands.smooth.second_order import SecondOrderChange
 from hexmend.cli.commands.smooth.suggested_command import RunOptions, suggested_command
-from hexmend.cli.output.mesh_output import MeshOutput, print_notes, print_problems
+from hexmend.cli.output.mesh_output import MeshOutput, mid_node_advice, print_notes, print_problems
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
@@ -78,9 +77,9 @@ def run(args: argparse.Namespace) -> int:
         result = smoothing.result()
         written = output.write(result.mesh.replace(pinned=pinned))
         checkpoints.remove()
-        second_order = _report(args, mesh, method.title, result, written)
-        if second_order.advice and not result.after.inverted:
-            print(second_order.advice)
+        _report(args, method.title, result, written)
+        if not result.after.inverted and (advice := mid_node_advice(args.output, result.mesh)):
+            print(advice)
         elif result.after.invalid:
             kept = RunOptions(mesh.node_rules.rules, args.as_is, args.surface, args.only, rings)
             _print_advice(args, result, _outside(mesh, pinned), kept)
@@ -109,23 +108,19 @@ def _keep(checkpoints: Checkpoints, mesh: Mesh, iteration: Iteration) -> None:
         checkpoints.write(lambda: mesh.with_points(iteration.points))
 
 
-def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, written: str) -> SecondOrderChange:
-    """Write the files of --json and --history, print the change of the mesh, and return that of second-order hexes."""
-    second_order = SecondOrderChange.of(mesh, result.mesh, args.output)
+def _report(args: argparse.Namespace, title: str, result: Result, written: str) -> None:
+    """Write the files of --json and --history, and print the change of the mesh."""
     if args.json:
-        report = record(result)
-        second_order.add_to(report)
-        write_json(args.json, report)
+        write_json(args.json, record(result))
     if args.history:
         write_history(args.history, result)
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after], result.target_q)
     print(result.message)
-    for line in (*(wall.sentence for wall in result.layers), *second_order.lines):
-        print(line)
+    for wall in result.layers:
+        print(wall.sentence)
     if result.surface is not None:
         print(result.surface_sentence)
     print(written)
-    return second_order
 
 
 def _print_advice(args: argparse.Namespace, result: Result, outside: np.ndarray | None, options: RunOptions) -> None:
