@@ -56,6 +56,11 @@ class LockedCorner:
     nodes: tuple[int, int, int, int]
     reason: Reason
 
+    @property
+    def sentence(self) -> str:
+        """The proof as a sentence."""
+        return self.describe()
+
     def describe(self, mesh: Mesh | None = None) -> str:
         """Return the proof as a sentence, with the numbers that the file of `mesh` gives to hex and nodes."""
         others = ", ".join(map(str, self.nodes[1:]))

@@ -66,7 +66,7 @@ def test_two_faces_of_a_hex_on_one_flat_patch_need_a_layer():
     for one in planes:
         x = mesh.points[list(one.nodes)]
         assert np.linalg.matrix_rank(x[1:] - x[0], tol=1e-9) == 2
-        assert one.describe().endswith("lie on one flat piece of the boundary.")
+        assert one.sentence.endswith("lie on one flat piece of the boundary.")
     assert planes
     run = hx.smooth(
         mesh, "local-nr", boundary="slide", surface_tolerance="unlimited", max_iterations=30, keep_last=True

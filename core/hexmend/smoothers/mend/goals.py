@@ -161,7 +161,7 @@ def _balance(
         )
         if not energy.mean(measure(floors.points, energy.mesh.elements).q) < mean:
             break
-    return Reached(floors.points, balance_message(energy, floors, top), boundary=boundary)
+    return Reached(floors.points, balance_message(energy, floors, top, starts[-1]), boundary=boundary)
 
 
 def _below(value: float) -> float:

@@ -29,10 +29,15 @@ def omission_message(by_fixed: int, others: int) -> str:
 
 
 def certified_message(before: ElementQuality, after: ElementQuality) -> str:
-    """Tell how many hexes the last stage has made valid; "" where there are none."""
+    """Tell how many hexes the last stage has made valid, and at what cost; "" where there are none."""
     count = before.n_invalid - after.n_invalid
+    if count <= 0:
+        return ""
     were = count_phrase(count, "hex that was invalid is", "hexes that were invalid are")
-    return f"{were} valid now." if count > 0 else ""
+    figures = {"minimum scaled Jacobian": "scaled_jacobian", "least q(H)": "q"}
+    pairs = {name: [f"{getattr(of, key).min():.4f}" for of in (before, after)] for name, key in figures.items()}
+    cost = [f"the {name} went from {old} to {new}" for name, (old, new) in pairs.items() if old != new]
+    return f"{were} valid now: for that {' and '.join(cost)}." if cost else f"{were} valid now."
 
 
 def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
@@ -87,17 +92,22 @@ def limit_message(mesh: Mesh, active: ActiveSet, least: float, title: str) -> st
     return f"{sentence} {which} that fixed nodes lock below that, the lowest in hex {_first_hexes(mesh, locked[:1])}."
 
 
-def balance_message(energy: MeshEnergy, floors: Floors, top: Values) -> str:
-    """Say what was reached, and which floors hold."""
-    kept = floors.values
-    fixed = energy.ranks.least(float(measure(floors.points, energy.mesh.elements).scaled_jacobian.min()))
+def balance_message(energy: MeshEnergy, floors: Floors, top: Values, shape: np.ndarray) -> str:
+    """Say what was reached, which floors hold, and what they cost of q mean at the optimum of shape (n, 3)."""
+    hexes = energy.mesh.elements
+    kept, quality = floors.values, measure(floors.points, hexes)
+    mean, without = energy.mean(quality.q), energy.mean(measure(shape, hexes).q)
+    fixed = energy.ranks.least(float(quality.scaled_jacobian.min()))
     message = (
         f"The minimum scaled Jacobian of the corners that can be moved reached {max(top.jacobian, kept.jacobian):.4f}; "
         f"the result has at least {kept.jacobian:.4f}, and a q(H) of at least {kept.quality:.4f}."
     )
     if 0 < fixed < kept.jacobian - 5e-5:
         message += f" A corner that cannot be moved has {fixed:.4f}."
-    return message
+    cost = f"{without - mean:.4f}"
+    if not float(cost) > 0:
+        return message
+    return f"{message} This costs {cost} in mean q."
 
 
 def _first_hexes(mesh: Mesh, hexes: np.ndarray) -> str:
