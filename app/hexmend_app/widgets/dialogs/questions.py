@@ -31,12 +31,8 @@ class Answer(Enum):
 def ask_mesh(parent: QWidget) -> str:
     """Ask for the mesh or session to open; "" if cancelled."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
-    filters = tr(
-        "Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{suffix});;All files (*)",
-        kinds=kinds,
-        suffix=SUFFIX,
-    )
-    return ask_to_open(parent, tr("Open mesh or session"), filters)
+    filters = "Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{suffix});;All files (*)"
+    return ask_to_open(parent, tr("Open mesh or session"), tr(filters, kinds=kinds, suffix=SUFFIX))
 
 
 def ask_mesh_target(parent: QWidget, title: str, stem: str, suffix: str = ".vtu") -> str:
@@ -236,10 +232,8 @@ def waiting_dialog(parent: QWidget, text: str, over: Callable[[], bool], leave: 
     leave : str
         Text of the button that continues without waiting; "" for no button.
     """
-    box = QMessageBox(parent)
+    box = _question(parent, text, "", QMessageBox.Icon.NoIcon)
     box.setWindowTitle(tr("Please wait"))
-    box.setTextFormat(Qt.TextFormat.PlainText)
-    box.setText(text)
     box.setStandardButtons(QMessageBox.StandardButton.Cancel)
     box.setDefaultButton(QMessageBox.StandardButton.Cancel)  # so that Enter does not press `leave`
     if leave:
