@@ -232,8 +232,10 @@ def waiting_dialog(parent: QWidget, text: str, over: Callable[[], bool], leave: 
     leave : str
         Text of the button that continues without waiting; "" for no button.
     """
-    box = _question(parent, text, "", QMessageBox.Icon.NoIcon)
+    box = QMessageBox(parent)
     box.setWindowTitle(tr("Please wait"))
+    box.setTextFormat(Qt.TextFormat.PlainText)
+    box.setText(text)
     box.setStandardButtons(QMessageBox.StandardButton.Cancel)
     box.setDefaultButton(QMessageBox.StandardButton.Cancel)  # so that Enter does not press `leave`
     if leave:
