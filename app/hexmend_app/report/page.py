@@ -216,12 +216,7 @@ def _quality(case: Case, style: Style, interactive: bool) -> Generator[Figure, N
                 yield figure
     view = viewer(case.versions, pictures["surface"]) if interactive else pictures["surface"]
     pair = Markup().join(pictures[part] for part in _PLOTS if part in pictures)
-    return [
-        view,
-        pictures["behind"],
-        pictures["cut"],
-        Markup('<div class="pair">{}</div>').format(pair),
-    ]
+    return [view, pictures["behind"], pictures["cut"], Markup('<div class="pair">{}</div>').format(pair)]
 
 
 def _failed(row: Row) -> str:

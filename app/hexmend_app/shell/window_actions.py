@@ -133,11 +133,7 @@ def _program_actions(window: Any, panels: Sequence[Panel]) -> Iterator[Action]:
 def _show_palette(window: Any, panels: Sequence[Panel]) -> None:
     window.refresh()
     actions = {id: action for id, action in window.window_actions.items() if id != "commands"}
-    entries = [
-        *command_entries(actions),
-        *panel_entries(window.docks, panels),
-        *choice_entries(window.session),
-    ]
+    entries = [*command_entries(actions), *panel_entries(window.docks, panels), *choice_entries(window.session)]
     palette = CommandPalette(entries, window)
     palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     palette.move(window.mapToGlobal(QPoint((window.width() - palette.width()) // 2, 60)))

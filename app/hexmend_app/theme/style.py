@@ -193,10 +193,10 @@ def smaller(font: QFont) -> QFont:
     return font
 
 
-def bold(font: QFont) -> QFont:
-    """Return a bold copy of `font`."""
+def bold(font: QFont, on: bool = True) -> QFont:
+    """Return a copy of `font` that is bold, or not."""
     font = QFont(font)
-    font.setBold(True)
+    font.setBold(on)
     return font
 
 

@@ -23,9 +23,9 @@ def row_of(*parts: Part) -> QWidget:
     return row
 
 
-def scrolled(page: QWidget) -> QScrollArea:
-    """Return an area that scrolls a page vertically, fits it horizontally, and is not reached by Tab."""
-    area = QScrollArea()
+def scrolled(page: QWidget, area: QScrollArea | None = None) -> QScrollArea:
+    """Return an area, by default a new one, that scrolls a page vertically, fits its width, and that Tab passes by."""
+    area = QScrollArea() if area is None else area
     area.setWidget(page)
     area.setWidgetResizable(True)
     area.setFrameShape(QFrame.Shape.NoFrame)

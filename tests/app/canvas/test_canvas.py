@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
@@ -263,43 +263,18 @@ def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(show
     assert not bar.swatches[1].isEnabled()
 
 
-# Captions of views: each at the top of its view, in one or two rows.
+# Captions of views.
 
 
-class Framed(QWidget):
-    """A view in its frame."""
-
-    def __init__(self):
-        super().__init__()
-        self.view = QWidget()
-        self.frame = ViewFrame(self.view)
-        self.setLayout(self.frame)
-
-
-@pytest.fixture
-def framed(shown):
-    return shown(Framed(), 801, 603)
-
-
-def captions(count):
-    return [Caption(f"view {k}", 0.5, 0, 0, None) for k in range(count)]
-
-
-def test_captions_show_the_counts_of_each_view_first(framed):
-    framed.frame.set_captions(captions(2), None)
+def test_captions_show_the_counts_of_each_view_first(shown):
+    widget, frame = QWidget(), ViewFrame(QWidget())
+    widget.setLayout(frame)
+    shown(widget, 801, 603)
+    frame.set_captions([Caption(f"view {k}", 0.5, 0, 0, None) for k in range(2)], None)
     counts = ((("newly invalid", 1200), ("mended", 0)), (("newly invalid", 0), ("mended", 0)))
-    pairs = zip(framed.frame.captions, counts, strict=True)
-    framed.frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
-    texts = [caption.figures for caption in framed.frame.captions]
+    pairs = zip(frame.captions, counts, strict=True)
+    frame.change_captions([replace(caption, counts=own) for caption, own in pairs])
+    texts = [caption.figures for caption in frame.captions]
     assert texts == ["1,200 newly invalid · q min 0.5000", "none invalid · q min 0.5000"]
     assert Caption("view", 0.5, 3, 3, None).figures == "3 inverted · q min 0.5000"
     assert Caption("view", 0.5, 3, 5, None).figures == "3 inverted · 2 invalid inside · q min 0.5000"
-
-
-def test_a_close_button_in_the_lower_row_closes_its_view(framed, qtbot):
-    frame, view = framed.frame, framed.view
-    frame.set_captions(captions(4), None)
-    cross = next(one for one in view.findChildren(QToolButton) if one.accessibleName() == "Close the view of view 2")
-    with qtbot.waitSignal(frame.view_closed) as closed:
-        QTest.mouseClick(cross, LEFT)
-    assert closed.args == [2]

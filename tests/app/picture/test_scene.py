@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import ParameterError, measure
-from hexmend_app.picture import Colours, Isolate, LineStyle, Page, Scene, Show, from_toml, to_toml
+from hexmend_app.picture import Colours, Isolate, LineStyle, Page, Scene, Show
 from hexmend_app.picture.appearance import Look, Measurement, Structure
 from hexmend_app.picture.cut import Cut, CutKind, CutStyle, proposed_cuts
-from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
+from hexmend_app.picture.cut_shapes import Depth, DepthUnit, Plane, Slab, Sphere
 from hexmend_app.picture.displacement import MENDED, NEWLY_INVALID, STILL_INVALID, Displacement, ReferenceState
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
@@ -35,15 +35,6 @@ def test_a_scene_contains_the_tables_of_its_look():
     assert scene.look(MESH) == look
 
 
-def test_positions_and_shares_become_coordinates_of_the_mesh():
-    cut = Cut((Plane((1, 0, 0), 0.25), Plane((0, 2, 0))))
-    assert not cut.absolute
-    planes = Plane((1, 0, 0), point=(1, 0, 0)), Plane((0, 1, 0), point=(0, 2, 0))
-    assert Scene(cut=cut).look(MESH).cut == Cut(planes)
-    box = Cut(box=Box((0, 0.25, 0), (1, 1, 0.5), shares=True))
-    assert Scene(cut=box).look(MESH).cut == Cut(box=Box((0, 1, 0), (4, 4, 2)))
-
-
 @pytest.mark.parametrize("look", [
     Look(cut=Cut((Plane(),), hexes="3, 60-64")),
     Look(show=Show(isolate=Isolate((64,)))),
@@ -63,12 +54,6 @@ def test_a_text_of_too_many_remaining_hexes_is_omitted():
 # Measurements have distances and an angle.
 
 
-def test_distances_and_angle_of_a_right_triangle():
-    measurement = Measurement(((3, 0, 0), (0, 0, 0), (0, 4, 0)))
-    assert measurement.distances == [3, 4]
-    assert measurement.angle == pytest.approx(90)
-
-
 @given(st.floats(1e-7, 180), st.floats(0.1, 10), st.floats(0.1, 10))
 def test_angles_are_precise_however_small(degrees, one, other):
     end = (other * math.cos(math.radians(degrees)), other * math.sin(math.radians(degrees)), 0.0)
@@ -83,13 +68,6 @@ def test_a_fourth_point_begins_a_new_measurement():
     assert measurement.with_point((7, 0, 0)) == Measurement(((7, 0, 0),))
     with pytest.raises(ParameterError, match="points"):
         Measurement(((0, 0, 0),) * 4)
-
-
-def test_a_scene_file_stores_it():
-    scene = Scene(measurement=Measurement(((0.1, 0, 0), (1, 2, 3))))
-    text = to_toml(scene)
-    assert "[measurement]" in text
-    assert from_toml(text) == scene
 
 
 # Slabs, spheres and depths of cuts, as values.
@@ -109,15 +87,6 @@ def test_a_slab_hides_what_is_farther_from_its_middle_than_half_its_thickness(po
     np.testing.assert_array_equal(inside[clear], ~outside[clear])
 
 
-@given(POINTS, st.floats(0, 5))
-def test_a_sphere_hides_what_is_farther_from_its_centre_than_its_radius(points, radius):
-    cut = Cut(sphere=Sphere((1, 0, -1), radius))
-    distance = np.linalg.norm(points - (1, 0, -1), axis=1)
-    clear = np.abs(distance - radius) > 1e-9
-    np.testing.assert_array_equal(cut.hidden(points)[clear], (distance > radius)[clear])
-    assert (Cut(sphere=cut.sphere, notch=True).hidden(points) != cut.hidden(points)).all()
-
-
 def test_fractions_become_coordinates_of_the_mesh():
     mesh = grid(4, 2, 8)
     assert Cut(slab=Slab((0, 0, 2), 0.25, thickness=0.5)).on(mesh).slab == Slab((0, 0, 1), point=(0, 0, 2), thickness=4)
@@ -126,12 +95,6 @@ def test_fractions_become_coordinates_of_the_mesh():
     for cut in (Cut(slab=Slab()), Cut(sphere=Sphere(shares=True))):
         assert not cut.absolute
         assert cut.on(mesh).absolute
-
-
-def test_a_moved_slab_keeps_its_thickness():
-    slab = Slab((1, 0, 0), point=(1, 2, 3), thickness=0.7)
-    assert slab.moved_to(Plane((0, 3, 0), point=(0, 1, 0))) == Slab((0, 1, 0), point=(0, 1, 0), thickness=0.7)
-    assert slab.moved_to(slab.middle) == slab
 
 
 CONTRADICTIONS = [
@@ -205,15 +168,6 @@ def test_only_cuts_by_whole_hexes_list_hexes():
 def test_a_moved_plane_lists_no_hexes():
     cut = CUT.with_hexes(np.array([True, False]))
     assert cut.with_plane(0, Plane((0, 1, 0), point=(0, 0, 0))).hexes == ""
-
-
-def test_the_sides_of_a_box_contain_it():
-    box = Box((0, 1, 2), (3, 4, 5))
-    corners = np.array(np.meshgrid(*zip(box.low, box.high, strict=True))).reshape(3, -1).T
-    for notch, sign in ((False, -1), (True, 1)):
-        sides = Cut(box=box, notch=notch).sides
-        assert len(sides) == 6
-        assert all((sign * side.signed_distance(corners) > 0).all() for side in sides)
 
 
 # Displacements and changes since a reference state.

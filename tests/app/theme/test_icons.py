@@ -6,7 +6,6 @@ from PySide6.QtGui import QIcon, QImage
 
 from hexmend_app.theme.palette import FAINT, TEXT
 from hexmend_app.theme.style import icon
-from tests.app.theme.contrasts import contrast
 
 
 def opacity(name, size, ratio=1.0):
@@ -27,9 +26,3 @@ def test_a_disabled_icon_is_faint(qapp):
     }
     assert str(FAINT) in colours
     assert str(TEXT) not in colours
-
-
-def test_the_contrast_of_an_icon_suffices():
-    for dark in (False, True):
-        for ground in TEXT.on:
-            assert contrast(TEXT.of(dark), ground.of(dark)) >= 4.5

@@ -88,9 +88,6 @@ def test_a_value_that_is_not_finite_is_a_dash():
     assert figure(None) == figure(float("inf")) == figure(float("nan")) == "–"
 
 
-# Tick texts that have a colour of their own stay clear of the other ones.
-
-
 # Message bar: queue, repetitions, copying and dismissing.
 
 
@@ -111,16 +108,6 @@ def window(shown):
 @pytest.fixture
 def bar(window):
     return window.bar
-
-
-def test_the_newest_error_is_shown_before_older_ones(bar):
-    bar.show_error("first")
-    bar.show_error("second")
-    assert bar.title == "second"
-    QTest.mouseClick(named(bar, QToolButton, "Dismiss message"), _LEFT)
-    assert bar.title == "first"
-    QTest.mouseClick(named(bar, QToolButton, "Dismiss message"), _LEFT)
-    assert not bar.isVisible()
 
 
 def test_messages_wait_behind_those_of_higher_priority(bar):

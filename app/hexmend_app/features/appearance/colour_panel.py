@@ -31,10 +31,7 @@ from hexmend_app.widgets.wording import short_number
 _PINNED = "pinned"
 _RANGES = {
     Range.FULL: ("Full", "All possible values of the metric"),
-    Range.FITTED: (
-        "Fitted",
-        "Current minimum and maximum, without invalid hexes; follows a running method.",
-    ),
+    Range.FITTED: ("Fitted", "Current minimum and maximum, without invalid hexes; follows a running method."),
     Range.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
     _PINNED: ("Pinned", "Limits that you set, initially the current range."),
 }

@@ -14,7 +14,6 @@ from hexmend_app.picture.displacement import Displacement
 from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.colour.material_colours import material_values
 from hexmend_app.scene.geometry.frame import Frame
-from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks.boundary_classifier import BoundaryClasses
 from hexmend_app.translation import tr
@@ -106,8 +105,7 @@ class FeatureAppearance(Feature):
             self.canvas.interactor.setFocus()  # for the keys of the view
 
     def _isolate(self, kind: str) -> None:
-        now = self.session.document.now
-        self._view.isolate(hexes_of_group(kind, now.mesh, now.quality, self._movement))
+        self._view.isolate_group(kind, self._movement)
 
     def _isolate_material(self, number: int) -> None:
         materials = material_values(self.session.document.now.mesh)

@@ -122,9 +122,7 @@ def best(entries: Sequence[ComparisonRow], quantity: Quantity, texts: Mapping[st
         for entry in entries
         if entry.name != INITIAL and entry.record.get(quantity.key) is not None
     }
-    if not sign or not values:
-        return set()
-    if len({texts[name] for name in values}) < 2:
+    if not sign or len({texts[name] for name in values}) < 2:
         return set()
     highest = max(values, key=values.get)
     return {name for name in values if texts[name] == texts[highest]}

@@ -76,6 +76,7 @@ CHARTS: dict[str, Chart] = {
 DEFAULT_CHARTS = ("objective", "quality", "inverted")
 
 
+@dataclass
 class Curve:
     """Curve of a run in the charts, with the iterations that it has so far.
 
@@ -92,18 +93,15 @@ class Curve:
         The run has not ended.
     """
 
-    def __init__(
-        self,
-        record: RunRecord,
-        slot: int,
-        start: tuple[float, float] = (0.0, 0.0),
-        shown: bool = True,
-        current: bool = True,
-        running: bool = False,
-    ):
-        self.record, self.slot, self.start = record, slot, start
-        self.shown, self.current, self.running = shown, current, running
-        self.rows = list(record.rows)  # the run's thread may append more meanwhile
+    record: RunRecord
+    slot: int
+    start: tuple[float, float] = (0.0, 0.0)
+    shown: bool = True
+    current: bool = True
+    running: bool = False
+
+    def __post_init__(self) -> None:
+        self.rows = list(self.record.rows)  # the run's thread may append more meanwhile
 
     def of(self, key: str) -> np.ndarray:
         """Return the values of a quantity, (k,) float64; nan if there is no value."""

@@ -12,7 +12,7 @@ from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import CHARTS, DEFAULT_CHARTS, Curve, axis_title, colour_of
 from hexmend_app.state.mesh.run_record import RunRecord
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import icon, on_theme_change, set_help, small_label, smaller
+from hexmend_app.theme.style import bold, icon, on_theme_change, set_help, small_label, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.form import scrolled
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -224,9 +224,7 @@ class RunList(QListWidget):
         item.setText(record.name)
         item.setIcon(swatch_icon(colour_of(curve)))
         item.setCheckState(Qt.CheckState.Checked if curve.shown else Qt.CheckState.Unchecked)
-        font = self.font()
-        font.setBold(curve.current)
-        item.setFont(font)
+        item.setFont(bold(self.font(), curve.current))
         values = {"title": tr(record.title), "count": counted(record.newest, record.unit)}
         if record.parent is None:
             item.setToolTip(tr("{title}: {count}.", **values))

@@ -19,7 +19,6 @@ from hexmend_app.report.distribution import Distribution
 from hexmend_app.report.histogram import Histogram
 from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.state.mesh.document import MeasuredMesh
-from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.view.side_views import Snapshot
 from hexmend_app.translation import tr
@@ -137,8 +136,7 @@ class FeatureHistogram(ChartFeature):
         self._view.change(show={"quality": range.quality, "metric": range.metric, "inverted": range.inverted})
 
     def _isolate_inverted(self) -> None:
-        now = self._document.now
-        self._view.isolate(hexes_of_group("inverted", now.mesh, now.quality))
+        self._view.isolate_group("inverted")
 
     # Snapshots
 

@@ -12,7 +12,6 @@ from hexmend_app.feature import Feature, Host, Panel, PanelPlace
 from hexmend_app.picture.appearance import Arrows, Traces
 from hexmend_app.picture.displacement import Displacement, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MAX_ARROWS
-from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help, small_label
 from hexmend_app.translation import tr
@@ -62,8 +61,7 @@ class FeatureMovement(Feature):
         return self.session.comparison_bases.displacement(self._view.look.movement.since)
 
     def _show_newly_invalid(self) -> None:
-        now = self._document.now
-        self._view.isolate(hexes_of_group("newly invalid", now.mesh, now.quality, self._displacement))
+        self._view.isolate_group("newly invalid", self._displacement)
 
 
 class MovementPanel(QWidget):

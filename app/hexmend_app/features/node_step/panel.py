@@ -37,11 +37,7 @@ _LEGEND = (
         "Downhill: the negative gradient of the energy with respect to the node. Its length has no meaning. There is "
         "no arrow if the gradient is within rounding.",
     ),
-    (
-        "direction",
-        SEARCH,
-        "Search direction, or the direction to the target position. Its length has no meaning.",
-    ),
+    ("direction", SEARCH, "Search direction, or the direction to the target position. Its length has no meaning."),
     ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
     ("after", OTHERWISE, "Edges at the node after the step."),
@@ -82,9 +78,7 @@ class NodePanel(QWidget):
         self.nodes.setWordWrap(True)
         self.nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         set_help(
-            self.nodes,
-            tr("Free nodes"),
-            tr("Nodes of the selected hex that methods may move; click one to select it."),
+            self.nodes, tr("Free nodes"), tr("Nodes of the selected hex that methods may move; click one to select it.")
         )
         text, help = tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again.")
         self.isolate_button = push_button(text, help)

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLay
 from hexmend.quality import SUMMARY_QUANTITIES, Summary
 from hexmend.quantity import Quantity
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.settings import settings
 from hexmend_app.theme.palette import BETTER, BLUE, MUTED, TEXT, WORSE, Role
 from hexmend_app.theme.spacing import fill
@@ -89,8 +88,7 @@ class FeatureQuality(Feature):
         QGuiApplication.clipboard().setText(figures_text(document.start.summary, document.now.summary))
 
     def _isolate(self, kind: str) -> None:
-        now = self.session.document.now
-        self.session.view.isolate(hexes_of_group(kind, now.mesh, now.quality))
+        self.session.view.isolate_group(kind)
 
 
 class QualityBar(QFrame):

@@ -22,7 +22,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend_app.feature import ChangeTracker
 from hexmend_app.state.run.run_setup import RecipeDraft, RunSetup, settings_text
 from hexmend_app.theme.spacing import apply_spacing, fill
-from hexmend_app.theme.style import icon_button, labelled, push_button, set_help, small_label
+from hexmend_app.theme.style import bold, icon_button, labelled, push_button, set_help, small_label
 from hexmend_app.translation import tr
 
 _EMPTY = (
@@ -152,9 +152,7 @@ class RecipePanel(QWidget):
         """Mark the active stage, counted from 1, or none."""
         for at in range(self._list.count()):
             item = self._list.item(at)
-            font = item.font()
-            font.setBold(at + 1 == number)
-            item.setFont(font)
+            item.setFont(bold(item.font(), at + 1 == number))
 
     def set_editable(self, editable: bool) -> None:
         """Enable or disable editing and running the stages."""

@@ -100,8 +100,7 @@ class FeatureSession(Feature):
         if not self._failed:  # report it once, not at every autosave
             self._failed = True
             self.host.messages.show_warning(
-                tr("Autosave failed"),
-                tr("{error} Save the session to another disk or folder.", error=error),
+                tr("Autosave failed"), tr("{error} Save the session to another disk or folder.", error=error)
             )
 
 
@@ -117,8 +116,5 @@ def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
     when = tr("{time} on {date}", time=f"{crashed.when:%H:%M}", date=f"{crashed.when.day} {crashed.when:%B %Y}")
     return (
         tr("{name} can be recovered", name=crashed.name),
-        tr(
-            "Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}.",
-            when=when,
-        ),
+        tr("Hexmend ended unexpectedly while this mesh was open. Last autosave: {when}.", when=when),
     )

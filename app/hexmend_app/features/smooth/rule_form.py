@@ -19,7 +19,7 @@ from hexmend.run.interface_messages import describe_interfaces
 from hexmend.terminal_text import printable
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import clear, fill
-from hexmend_app.theme.style import set_help, show_text, small_label
+from hexmend_app.theme.style import bold, set_help, show_text, small_label
 from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.inputs.combo import ComboBox, FocusedWheel, let_shrink
@@ -87,17 +87,8 @@ class RuleForm(QWidget):
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        fill(
-            QVBoxLayout(self),
-            self._found,
-            self.interfaces,
-            self._filter,
-            self._list,
-            self._more,
-            self._problem,
-            margins=(0, 0, 0, 0),
-            spacing=4,
-        )
+        parts = (self._found, self.interfaces, self._filter, self._list, self._more, self._problem)
+        fill(QVBoxLayout(self), *parts, margins=(0, 0, 0, 0), spacing=4)
 
     @property
     def offered(self) -> bool:
@@ -207,9 +198,7 @@ class _RuleBox(FocusedWheel, ComboBox):
     def show_choices(self, choices: list[tuple[Rule, ...]], current: tuple[Rule, ...]) -> None:
         """Show the choices and the current one, without sending a signal."""
         self._choices = choices
-        font = self.font()
-        font.setBold(bool(current))
-        self.setFont(font)
+        self.setFont(bold(self.font(), bool(current)))
         with QSignalBlocker(self):
             self.clear()
             for text, help in map(describe_rules, choices):

@@ -14,6 +14,7 @@ from hexmend_app.feature import Panel, PanelPlace
 from hexmend_app.shell.panels.dock import Dock, set_up_tab_bars
 from hexmend_app.theme.spacing import fill
 from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.form import row_of
 
 #: Version of the saved arrangement; another one is ignored.
 LAYOUT = 2
@@ -107,7 +108,7 @@ class Docks(QObject):
                     self.view.insertWidget(0, panel.widget, 1)
             elif place is PanelPlace.BAR:
                 for panel in group:
-                    self._bars[panel.id] = bar = _wrapped(panel.widget)
+                    self._bars[panel.id] = bar = row_of(panel.widget)  # the user hides the row
                     self.view.addWidget(bar)
             else:
                 docks: dict[str, list[Panel]] = {}
@@ -172,12 +173,12 @@ class Docks(QObject):
                 self._main.addDockWidget(area, dock)
             for before, dock in pairwise(docks):
                 self._main.tabifyDockWidget(before, dock)
-        for dock in [*self._of(PanelPlace.TOOLS), *self._of(PanelPlace.FACTS)]:
+        tools, facts = self._of(PanelPlace.TOOLS), self._of(PanelPlace.FACTS)
+        for dock in [*tools, *facts]:
             dock.show()
-        for place in (PanelPlace.TOOLS, PanelPlace.FACTS):
-            for dock in self._of(place)[:1]:
-                dock.raise_()
-        column = [docks[0] for docks in (self._of(PanelPlace.TOOLS), self._of(PanelPlace.FACTS)) if docks]
+        column = [*tools[:1], *facts[:1]]
+        for dock in column:
+            dock.raise_()
         self._main.resizeDocks(column, [self._column] * len(column), Qt.Orientation.Horizontal)
         heights = [round(share * self._main.height()) for share in (_TOOLS_SHARE, 1 - _TOOLS_SHARE)]
         self._main.resizeDocks(column, heights[: len(column)], Qt.Orientation.Vertical)
@@ -310,10 +311,3 @@ class Docks(QObject):
             if not dock.isFloating() and self._main.dockWidgetArea(dock) == Qt.DockWidgetArea.NoDockWidgetArea:
                 self._main.addDockWidget(_AREAS[dock.place], dock)
         self._update_timer.start()
-
-
-def _wrapped(widget: QWidget) -> QWidget:
-    """Return a container of a widget: the feature shows and hides the widget, the user the container."""
-    container = QWidget()
-    fill(QVBoxLayout(container), widget, margins=(0, 0, 0, 0))
-    return container

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QObject
+from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel
 from hexmend_app.theme.spacing import fill
+from hexmend_app.widgets.form import scrolled
 from hexmend_app.widgets.section import Section
 
 #: Extra width in pixels, for texts whose numbers grow.
@@ -20,12 +21,8 @@ class _StackArea(QScrollArea):
 
     def __init__(self, page: QWidget) -> None:
         super().__init__()
-        self.setWidgetResizable(True)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalScrollBar().ensurePolished()  # the style sheet sets its width
-        self.setWidget(page)
+        scrolled(page, self)
         self._fit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -160,18 +160,15 @@ class WindowStart(QObject):
         window.build_canvas()
         self._wait.start()
         window.canvas.interactor.frameSwapped.connect(self._on_frame)
-        window.session.opener.failed.connect(self._on_failed)
+        window.session.opener.failed.connect(self._continue)
 
     def _on_frame(self) -> None:
         if self._window.canvas.colouring is not None:
             self._continue()
 
-    def _on_failed(self) -> None:
-        self._continue()
-
     def _continue(self) -> None:
         self._window.canvas.interactor.frameSwapped.disconnect(self._on_frame)
-        self._window.session.opener.failed.disconnect(self._on_failed)
+        self._window.session.opener.failed.disconnect(self._continue)
         self._wait.start(0)
 
     def _build_features(self) -> None:

@@ -241,8 +241,7 @@ class RunController(QObject):
             then()
             return
         self._after_end.append(then)
-        self._worker.end()
-        self._set_phase(Phase.STOPPING)
+        self.stop()
 
     def _on_mesh_replaced(self) -> None:
         """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""

@@ -13,9 +13,11 @@ from hexmend_app.picture.appearance import Look, Measurement
 from hexmend_app.picture.camera import Camera
 from hexmend_app.picture.cut import Cut
 from hexmend_app.picture.cut_shapes import Box, Plane, Sphere
+from hexmend_app.picture.displacement import Displacement
 from hexmend_app.picture.page import Page
 from hexmend_app.picture.visibility import Isolate, Show, known_metric
 from hexmend_app.state.mesh.document import Document
+from hexmend_app.state.mesh.hex_groups import hexes_of_group
 
 if TYPE_CHECKING:
     import numpy as np
@@ -223,6 +225,11 @@ class ViewModel(QObject):
     def set_snap(self, on: bool) -> None:
         """Set whether dragged planes snap to the axes."""
         self.snap = on
+
+    def isolate_group(self, group: str, displacement: Displacement | None = None) -> None:
+        """Show only the hexes of a group of the open mesh; see `hexes_of_group` for the parameters."""
+        now = self._document.now
+        self.isolate(hexes_of_group(group, now.mesh, now.quality, displacement))
 
     def isolate(self, hexes: Iterable[int], rings: int | None = None) -> None:
         """Show only some hexes and rings of neighbours around them.

@@ -31,12 +31,8 @@ class Answer(Enum):
 def ask_mesh(parent: QWidget) -> str:
     """Ask for the mesh or session to open; "" if cancelled."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
-    filters = tr(
-        "Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{suffix});;All files (*)",
-        kinds=kinds,
-        suffix=SUFFIX,
-    )
-    return ask_to_open(parent, tr("Open mesh or session"), filters)
+    filters = "Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{suffix});;All files (*)"
+    return ask_to_open(parent, tr("Open mesh or session"), tr(filters, kinds=kinds, suffix=SUFFIX))
 
 
 def ask_mesh_target(parent: QWidget, title: str, stem: str, suffix: str = ".vtu") -> str:

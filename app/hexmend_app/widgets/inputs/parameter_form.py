@@ -14,7 +14,7 @@ from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.palette import WORSE
 from hexmend_app.theme.spacing import fill
-from hexmend_app.theme.style import labelled, set_help, show_text, small_label, tool_button
+from hexmend_app.theme.style import bold, labelled, set_help, show_text, small_label, tool_button
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.wording import label_of, short_number
@@ -166,9 +166,7 @@ class ParameterForm(QWidget):
         """Mark the values that differ from their defaults, show the rows that are needed, and the problem."""
         modified = {name for name, editor in self.editors.items() if editor.value() != self._declarations[name].default}
         for name, label in self._labels.items():
-            font = label.font()
-            font.setBold(name in modified)
-            label.setFont(font)
+            label.setFont(bold(label.font(), name in modified))
             is_needed = not self._declarations[name].advanced or name in modified or bool(self.editors[name].problem)
             self._rows.setRowVisible(self.editors[name], is_needed or self._advanced.isChecked())
         self._defaults.setEnabled(bool(modified or self.problems()))

@@ -14,9 +14,7 @@ from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.appearance.feature import FeatureAppearance
 from hexmend_app.picture.colours import Colours, Range
 from hexmend_app.widgets.inputs.segmented import Segmented
-from tests.app.driving import brought, heard_from, key, named, open_mesh, pixels, press, type_text, walk_to
-
-_LEFT = Qt.MouseButton.LeftButton
+from tests.app.driving import LEFT, brought, heard_from, key, named, open_mesh, pixels, press, type_text, walk_to
 
 
 @pytest.fixture
@@ -35,8 +33,7 @@ def panel(shown, unbounded):
 
 @pytest.fixture
 def emitted(panel):
-    scales = heard_from(panel.colours_changed)
-    return scales
+    return heard_from(panel.colours_changed)
 
 
 def part(panel, name):
@@ -50,7 +47,7 @@ def problem(panel):
 
 
 def choose_range(panel, mode):
-    QTest.mouseClick(part(panel, "Range").button(mode), _LEFT)
+    QTest.mouseClick(part(panel, "Range").button(mode), LEFT)
 
 
 def choose(combo, name):
@@ -84,7 +81,7 @@ def test_each_choice_emits_one_signal(panel, emitted):
     choose(part(panel, "Metric"), "scaled-jacobian")
     choose(part(panel, "Colour map"), "cividis")
     choose_range(panel, "acceptable")
-    QTest.mouseClick(part(panel, "Reverse"), _LEFT, pos=QPoint(8, part(panel, "Reverse").height() // 2))
+    QTest.mouseClick(part(panel, "Reverse"), LEFT, pos=QPoint(8, part(panel, "Reverse").height() // 2))
     assert emitted == [
         Colours(metric="scaled-jacobian"),
         Colours(metric="scaled-jacobian", map="cividis"),
@@ -228,6 +225,6 @@ def test_a_click_on_a_material_in_the_legend_shows_only_its_hexes(window, qtbot,
     window.features["appearance"].panel.choose_metric("material")
     window.refresh()
     names = next(label for label in window.canvas.colour_bar.findChildren(QLabel) if ">■</span> ball" in label.text())
-    QTest.mouseClick(names, _LEFT, pos=QPoint(30, names.fontMetrics().lineSpacing() // 2))
+    QTest.mouseClick(names, LEFT, pos=QPoint(30, names.fontMetrics().lineSpacing() // 2))
     balls = np.flatnonzero(mesh.materials.of_hex == mesh.materials.names.index("ball"))
     assert window.session.view.look.show.isolate.hexes == tuple(balls)

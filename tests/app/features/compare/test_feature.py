@@ -200,12 +200,7 @@ def test_results_are_shown_next_to_the_mesh_and_named_in_the_histogram(compared)
 def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
     for name in ("getme", "laplacian", "local-sd"):
         tick(compared, name, VIEW)
-    crosses = [
-        b
-        for b in compared.findChildren(QToolButton)
-        if b.accessibleName() == f"Close the view of {title_of('laplacian')}"
-    ]
-    press(next(cross for cross in crosses if cross.isVisible()))
+    press(named(compared, QToolButton, f"Close the view of {title_of('laplacian')}"))
     assert captions(compared) == ["now", title_of("getme"), title_of("local-sd")]
     assert not model(compared).rows[row(compared, "laplacian")].shown
     assert [one.name for one in compared.session.snapshots.all] == [title_of("getme"), title_of("local-sd")]

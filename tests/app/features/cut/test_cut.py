@@ -180,8 +180,8 @@ def test_the_arrow_and_the_wheel_push_the_plane_and_the_ring_rotates_it(window, 
     assert abs(plane().normal[2]) < 0.999
 
 
-def press_plane(window):
-    """Press the mouse on a horizontal plane and begin a drag; return the view, the place and the height before."""
+@pytest.mark.slow
+def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")
     window.canvas.draw_still()
@@ -190,12 +190,6 @@ def press_plane(window):
     move(view, place)
     QTest.mousePress(view, LEFT, pos=place)
     move(view, place + QPoint(0, -20), LEFT)
-    return view, place, z
-
-
-@pytest.mark.slow
-def test_a_dragged_plane_is_released_where_the_pointer_leaves_the_view(window, qtbot):
-    view, place, z = press_plane(window)
     move(view, QPoint(place.x(), -5), LEFT)
     left = window.session.view.look.cut
     assert left.planes[0].point[2] > z
@@ -249,7 +243,6 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
 # The cut panel by mouse and keys.
 
 
-_LEFT = Qt.MouseButton.LeftButton
 _BOUNDS = np.array([[-1.0, 0.0, 2.0], [3.0, 30.0, 4.0]])
 _BOX = QPoint(8, 8)
 
@@ -263,8 +256,7 @@ def panel(shown):
 
 @pytest.fixture
 def emitted(panel):
-    planes = heard_from(panel.cut_changed)
-    return planes
+    return heard_from(panel.cut_changed)
 
 
 def part(panel, name):
@@ -272,13 +264,13 @@ def part(panel, name):
 
 
 def switch_on(panel):
-    QTest.mouseClick(named(panel, QCheckBox, "Cut"), _LEFT, pos=_BOX)
+    QTest.mouseClick(named(panel, QCheckBox, "Cut"), LEFT, pos=_BOX)
 
 
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
 def test_axis_buttons_align_the_plane_and_centre_it(panel, emitted, key, normal):
     panel.set_cut(Cut.at((1, 2, 3), (0, 0, 2)))
-    QTest.mouseClick(part(panel, "Axis").button(key), _LEFT)
+    QTest.mouseClick(part(panel, "Axis").button(key), LEFT)
     assert emitted == [Cut.at(normal, (1, 15, 3))]
 
 
@@ -310,26 +302,26 @@ def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     switch_on(panel)
     assert not part(panel, "Remove plane").isEnabled()
     assert not part(panel, "Hide").isVisible()
-    QTest.mouseClick(part(panel, "Add plane"), _LEFT)
+    QTest.mouseClick(part(panel, "Add plane"), LEFT)
     assert [plane.normal for plane in emitted[-1].planes] == [(1, 0, 0), (0, 1, 0)]
     assert (texts(panel), part(panel, "Plane").currentIndex()) == (["1", "2"], 1)
     QTest.keyClick(part(panel, "Position"), Qt.Key.Key_End)
     assert emitted[-1].planes[0].point == (1, 15, 3)
     assert emitted[-1].planes[1].point[1] == pytest.approx(30)
     with qtbot.waitSignal(panel.plane_chosen) as chosen:
-        QTest.mouseClick(part(panel, "Plane"), _LEFT, pos=part(panel, "Plane").tabRect(0).center())
+        QTest.mouseClick(part(panel, "Plane"), LEFT, pos=part(panel, "Plane").tabRect(0).center())
     assert chosen.args == [0]
     assert part(panel, "Axis").value() == "x"
-    QTest.mouseClick(part(panel, "Hide").button("all"), _LEFT)
+    QTest.mouseClick(part(panel, "Hide").button("all"), LEFT)
     assert emitted[-1].notch
-    QTest.mouseClick(part(panel, "Remove plane"), _LEFT)
+    QTest.mouseClick(part(panel, "Remove plane"), LEFT)
     assert [plane.normal for plane in emitted[-1].planes] == [(0, 1, 0)]
     assert texts(panel) == ["1"]
 
 
 def choose_kind(panel, key):
     switch_on(panel)
-    QTest.mouseClick(part(panel, "Cut by").button(key), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button(key), LEFT)
 
 
 def type_into(panel, name, text):
@@ -340,18 +332,17 @@ def type_into(panel, name, text):
 
 
 def test_a_box_is_typed_and_inverted(panel, emitted):
-    switch_on(panel)
-    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
+    choose_kind(panel, "box")
     assert emitted[-1] == Cut(box=Box((0, 7.5, 2.5), (2, 22.5, 3.5)))
     assert not part(panel, "Position").isVisible()
     type_into(panel, "Maximum Y of the box", "25")  # its first digit is less than the minimum
-    QTest.mouseClick(part(panel, "Hidden side").button("all"), _LEFT)
+    QTest.mouseClick(part(panel, "Hidden side").button("all"), LEFT)
     box = emitted[-1]
     assert (box.box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.box.high == (2, 25, 3.5)
-    QTest.mouseClick(part(panel, "Cut by").button("planes"), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("planes"), LEFT)
     assert emitted[-1] == Cut.at((1, 0, 0), (1, 15, 3))
-    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("box"), LEFT)
     assert emitted[-1] == box
 
 
@@ -360,18 +351,18 @@ def test_a_slab_is_turned_moved_and_made_thicker(panel, emitted):
     assert emitted[-1] == Cut(slab=Slab((1, 0, 0), point=(1, 15, 3), thickness=0.4))
     assert not named(panel, QPushButton, "Flip").isVisible()
     type_into(panel, "Thickness", "1.5")
-    QTest.mouseClick(part(panel, "Axis").button("z"), _LEFT)
+    QTest.mouseClick(part(panel, "Axis").button("z"), LEFT)
     assert emitted[-1].slab == Slab((0, 0, 1), point=(1, 15, 3), thickness=1.5)
     QTest.keyClick(part(panel, "Position"), Qt.Key.Key_End)
     assert emitted[-1].slab.point[2] == pytest.approx(4)
-    QTest.mouseClick(named(panel, Segmented, "Cut").button("smooth"), _LEFT)
+    QTest.mouseClick(named(panel, Segmented, "Cut").button("smooth"), LEFT)
     assert emitted[-1].smooth
-    QTest.mouseClick(part(panel, "Hidden side").button("all"), _LEFT)
+    QTest.mouseClick(part(panel, "Hidden side").button("all"), LEFT)
     assert emitted[-1].notch
     before = emitted[-1]
-    QTest.mouseClick(part(panel, "Cut by").button("planes"), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("planes"), LEFT)
     assert emitted[-1].planes == (Plane((1, 0, 0), point=(1, 15, 3)),)
-    QTest.mouseClick(part(panel, "Cut by").button("slab"), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("slab"), LEFT)
     assert emitted[-1] == before
 
 
@@ -389,14 +380,14 @@ def test_pages_that_are_hidden_change_their_own_cut(panel, emitted):
     named(panel, NumberBox, "Thickness").stepBy(1)
     named(panel, NumberBox, "Maximum depth").stepBy(1)
     assert set(emitted) == {planes}
-    QTest.mouseClick(part(panel, "Cut by").button("box"), _LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("box"), LEFT)
     assert (emitted[-1].box.low[0], emitted[-1].box.high[0]) == (-1, 2)
 
 
 def test_a_sphere_is_typed_and_has_whole_hexes(panel, emitted):
     choose_kind(panel, "planes")
-    QTest.mouseClick(named(panel, Segmented, "Cut").button("smooth"), _LEFT)
-    QTest.mouseClick(part(panel, "Cut by").button("sphere"), _LEFT)
+    QTest.mouseClick(named(panel, Segmented, "Cut").button("smooth"), LEFT)
+    QTest.mouseClick(part(panel, "Cut by").button("sphere"), LEFT)
     assert emitted[-1].crinkled
     assert not named(panel, Segmented, "Cut").isVisible()
     type_into(panel, "Centre Y", "7.25")

@@ -255,6 +255,8 @@ def test_a_hex_is_shown_with_metrics_nodes_and_neighbours(panel):
     assert any(f">{details.values['q']:.4f}<" in text for text in shown)
     (corners,) = (text for text in shown if "q(T)" in text)
     assert corners.count(">free<") + corners.count(">fixed<") == 8
+    neighbour = next(h for h in details.neighbours if h >= 0)
+    assert f'href="{neighbour}"' in named(panel, LinkLabel, "Neighbours").text()
 
 
 def test_a_hex_that_is_invalid_inside_is_called_so_with_its_least_determinant(panel):
@@ -279,13 +281,6 @@ def test_the_numbers_of_the_file_are_named_too(panel):
     from_zero = SMALL.replace(hex_data={"id": np.arange(SMALL.n_hexes)})
     panel.show_hex(describe_hex(from_zero, WORST_OF_SMALL))
     assert not any("in the file:" in text for text in texts(panel))
-
-
-def test_neighbours_are_links(panel):
-    details = describe_hex(SMALL, WORST_OF_SMALL)
-    panel.show_hex(details)
-    links, neighbour = named(panel, LinkLabel, "Neighbours"), next(h for h in details.neighbours if h >= 0)
-    assert f'href="{neighbour}"' in links.text()
 
 
 # Meshes of hexes, wedges, pyramids and tetrahedra.

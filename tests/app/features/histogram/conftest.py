@@ -31,8 +31,7 @@ def histogram(shown, data):
 @pytest.fixture
 def announced(histogram):
     """Return a list of the ranges that the histogram announces."""
-    ranges = heard_from(histogram.range_changed)
-    return ranges
+    return heard_from(histogram.range_changed)
 
 
 @pytest.fixture

@@ -116,14 +116,6 @@ def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(hist
     assert not histogram.shown.describe_at(20.5).startswith("inverted, or")
 
 
-def test_another_metric_removes_all_distributions_and_the_range(histogram):
-    histogram.set_range(Show((0.3, 0.5), "q"))
-    histogram.set_metric("scaled-jacobian")
-    assert histogram.axis.metric == "scaled-jacobian"
-    assert not histogram.shown.shown
-    assert histogram.range() is None
-
-
 # Ranges of values that are dragged and typed in the histogram.
 
 

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from hexmend_app.picture import Cut, Range
+from hexmend_app.picture import Cut, CutStyle, Range
 from hexmend_app.picture.appearance import Arrows, Since
 from tests.app.driving import brought, named, pixels, smooth, type_text
 
@@ -74,11 +74,13 @@ def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     assert arrows_text(panel) == f"{free:,} arrows, true length."
     choose(panel.form.editors["arrows"], Arrows.SIGHT)
     assert arrows_text(panel) == "No visible node has moved."
-    window.session.view.set_cut(Cut.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
-    window.refresh()
+    for style in CutStyle:
+        middle = tuple(window.session.document.now.mesh.points.mean(axis=0))
+        window.session.view.set_cut(Cut.at((1, 0, 0), middle, style))
+        window.refresh()
+        assert 0 < layer.drawn < free
     before = pixels(window)
-    assert 0 < layer.drawn < free
     type_text(panel.form.editors["factor"].lineEdit(), "4")
     QTest.keyClick(panel.form.editors["factor"], Qt.Key.Key_Return)
     assert window.session.view.look.movement.factor == 4

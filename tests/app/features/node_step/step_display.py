@@ -4,7 +4,7 @@ from html import unescape
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtWidgets import QAbstractButton, QLabel
+from PySide6.QtWidgets import QLabel
 
 
 def shown_step(window):
@@ -29,10 +29,6 @@ def wait_for_step(window, qtbot, method, node=None):
     )
     window.refresh()
     return shown_step(window)
-
-
-def button(window, text):
-    return next(b for b in window.features["node_step"].panel.findChildren(QAbstractButton) if b.text() == text)
 
 
 def count_pixels(image, role, dark=False):

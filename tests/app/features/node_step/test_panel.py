@@ -17,9 +17,8 @@ from hexmend_app.picture import Cut, Isolate
 from hexmend_app.state.node_step import StepStatus, Trial, explain
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.palette import DESCENT, SEARCH, TEXT, WORSE
-from tests.app.driving import LEFT, choose, choose_by_keys, click_until, key, named, pixels, press
+from tests.app.driving import LEFT, button, choose, choose_by_keys, click_until, key, named, pixels, press
 from tests.app.features.node_step.step_display import (
-    button,
     count_pixels,
     drawn_trials,
     shown_step,
@@ -218,7 +217,7 @@ def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
 @pytest.mark.slow
 def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut(node_window, qtbot):
     window = node_window
-    press(button(window, "Isolate patch"))
+    press(button(window.features["node_step"].panel, "Isolate patch"))
     step = shown_step(window)
     assert window.session.view.look.show.isolate == Isolate(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
@@ -238,7 +237,7 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut(node_windo
 def test_undo_reverts_a_sweep_as_one_change(node_window, qtbot):
     window = node_window
     start = window.session.document.now
-    press(button(window, "Next node"))
+    press(button(window.features["node_step"].panel, "Next node"))
     step = wait_for_step(window, qtbot, "local-sd")
     assert step.status is StepStatus.MOVED
     points = window.session.document.now.mesh.points
@@ -246,7 +245,7 @@ def test_undo_reverts_a_sweep_as_one_change(node_window, qtbot):
     assert (points != start.mesh.points).any(axis=1).sum() == 1
     assert "Local steepest descent. Moved." in texts(window)
     assert "1 of" in texts(window)
-    press(button(window, "10 nodes"))
+    press(button(window.features["node_step"].panel, "10 nodes"))
     key(window, Qt.Key.Key_F11)
     assert window.session.node_sweep.sweep.done == 12
     assert window.session.document.undo_title is None

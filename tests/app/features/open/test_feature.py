@@ -46,12 +46,6 @@ def menu(window):
     return menu
 
 
-def press_in_menu(menu, key):
-    """Open a menu and press a letter in it."""
-    menu.popup(QPoint(50, 50))
-    QTest.keyClick(menu, key)
-
-
 @pytest.mark.slow
 def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, menu, tmp_path, mesh_file):
     assert recent.files() == [mesh_file]
@@ -64,7 +58,8 @@ def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, m
         window.features["open"].open(tmp_path / "nowhere.vtu")
     assert recent.files() == [other, mesh_file]
     with qtbot.waitSignal(window.session.opener.ended) as ended:
-        press_in_menu(menu, Qt.Key.Key_2)
+        menu.popup(QPoint(50, 50))
+        QTest.keyClick(menu, Qt.Key.Key_2)
     assert ended.args == [mesh_file]
     assert recent.files() == [mesh_file, other]
     assert menu.isHidden()
@@ -165,12 +160,6 @@ def slow_read(monkeypatch):
     proceed.set()
 
 
-def finish_reading(qtbot, slow_read):
-    """Unblock all files that are being read, also cancelled ones, and wait for them."""
-    slow_read.set()
-    qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()))
-
-
 @pytest.mark.slow
 def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, recent, slow_read, mesh_file, tmp_path):
     other = tmp_path / "slow.vtu"
@@ -185,7 +174,8 @@ def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, recent, slow
     assert not window.busy.isVisible()
     assert window.session.selection.hex == 3  # Esc cancelled the opening only
     assert "Opening slow.vtu was cancelled" in window.messages.messages()[-1][1]
-    finish_reading(qtbot, slow_read)
+    slow_read.set()
+    qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()))
     assert window.session.document.now is before
     assert recent.files() == [mesh_file]
     open_and_wait(qtbot, window, other)
@@ -393,10 +383,6 @@ def test_a_mesh_that_differs_from_the_picture_is_reported(window, qtbot, files, 
 # Opening a picture restores its mesh, appearance and camera.
 
 
-def messages(window):
-    return [" ".join(message[1:]) for message in window.messages.messages()]
-
-
 def change_appearance(window, qtbot):
     """Change appearance and camera, and return them."""
     session = window.session
@@ -430,7 +416,7 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     assert window.session.document.path == mesh
     assert window.session.view.look == look
     assert window.canvas.pose == pose
-    assert "mesh.vtu is shown with the camera and appearance of p.png." in messages(window)[-1]
+    assert "mesh.vtu is shown with the camera and appearance of p.png." in " ".join(message(window))
     assert write_picture(window, tmp_path / "again.png", (300, 200))
     first, second = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
     assert np.abs(first.astype(int) - second).mean() < 0.2
@@ -444,7 +430,7 @@ def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp
     assert write_picture(window, tmp_path / "p.png", (300, 200))
     window.session.commands.reset()
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert "in which it was smoothed by “Laplacian" in messages(window)[-1]
+    assert "in which it was smoothed by “Laplacian" in " ".join(message(window))
     (stage,) = window.session.recipe_draft.stages
     assert stage == Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0))
 
@@ -455,7 +441,7 @@ def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     assert write_picture(window, tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(4))
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert "The mesh differs from p.png" in messages(window)[-1]
+    assert "The mesh differs from p.png" in " ".join(message(window))
 
 
 @pytest.mark.slow
@@ -469,7 +455,7 @@ def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, mo
     with qtbot.waitSignal(window.session.opener.mesh_missing):
         window.features["open"].open(tmp_path / "p.png")
     assert window.session.document.now is before
-    assert "The mesh of p.png was not found" in messages(window)[-1]
+    assert "The mesh of p.png was not found" in " ".join(message(window))
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(moved), ""))
     with qtbot.waitSignal(window.session.opener.ended):
         button(window, "Locate mesh…").click()
@@ -486,4 +472,4 @@ def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qt
     io.write(mesh, grid(2))
     with qtbot.waitSignal(window.session.opener.failed):
         window.features["open"].open(tmp_path / "p.png")
-    assert "names hex 60" in messages(window)[-1]
+    assert "names hex 60" in " ".join(message(window))

@@ -9,23 +9,13 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QPushButton
 
-from hexmend import (
-    METHODS,
-    MotionRules,
-    Stage,
-    StoppingCriteria,
-    advise,
-    gallery,
-    iterate,
-    smooth,
-)
+from hexmend import METHODS, MotionRules, Stage, StoppingCriteria, advise, gallery, iterate, smooth
 from hexmend.advice import Suggestion
 from hexmend.gallery import make
 from hexmend_app.features.outcome.feature import FeatureOutcome, notice
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import button, click, click_until, key, named, open_mesh, phase, press, run_to_end, texts
-from tests.app.driving import texts as visible_texts
 from tests.core.grids import displaced, grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
@@ -38,20 +28,13 @@ def run(window, qtbot, method, **stop):
 
 def outcome_texts(window):
     window.refresh()
-    return " ".join(visible_texts(window.features["outcome"].panel))
-
-
-def choice(window, name):
-    """Return a button by its name; deleted buttons are hidden before they disappear."""
-    panel = window.features["outcome"].panel
-    return next(b for b in panel.findChildren(QPushButton) if b.accessibleName() == name and not b.isHidden())
+    return " ".join(texts(window.features["outcome"].panel))
 
 
 def press_choice(window, name):
     window.refresh()
     QApplication.sendPostedEvents()  # lays out the new buttons
-    assert choice(window, name).isVisible()
-    press(choice(window, name))
+    press(named(window.features["outcome"].panel, QPushButton, name))
 
 
 @pytest.fixture

@@ -39,36 +39,10 @@ from tests.patience import PATIENCE
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
 
-@pytest.fixture
-def endless(window):
-    """The window, set up with a method that runs until it is stopped."""
-    choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
-    return window
-
-
 def counts(window):
     """Return the text of the counts below the view."""
     window.refresh()
     return named(window, QLabel, "Counts").text()
-
-
-def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
-    window, document = endless, endless.session.document
-    start = document.now
-    click_until(window, qtbot, "Run", Phase.RUNNING)
-    qtbot.waitUntil(lambda: document.now is not start)
-    click_until(window, qtbot, "Pause", Phase.PAUSED)
-    held = document.now
-    click(window, "Step")
-    qtbot.waitUntil(lambda: document.now is not held)
-    assert document.now.summary.objective != held.summary.objective or held.summary.objective is None
-    click_until(window, qtbot, "Stop", Phase.FINISHED)
-    window.refresh()
-    assert window.isWindowModified()
-    assert document.undo_title == "Local steepest descent"
-    click(window, "Reset")
-    np.testing.assert_array_equal(document.now.mesh.points, start.mesh.points)
-    assert document.undo_title == "reset"
 
 
 @pytest.mark.slow
@@ -461,12 +435,6 @@ def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
     QTest.keyClick(method, Qt.Key.Key_Up)
     assert panel.stage.parameters.values()["scaling"] == 0.25
     assert setup.stage == _STAGE
-
-
-def test_a_stage_set_elsewhere_is_shown(panel, setup):
-    setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
-    assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
-    assert panel.stage.stop.values()["max_iterations"] == 3
 
 
 def test_settings_changed_while_paused_change_the_run(host, qtbot):

@@ -1,23 +1,12 @@
 """Helpers that operate the layers of the structure."""
 
 import numpy as np
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
-from tests.app.driving import LEFT, key, open_and_wait, turn
+from tests.app.driving import LEFT, open_and_wait, turn
 from tests.app.driving import pixels as drawn
-
-KEYS = {
-    "irregular": "S",
-    "boundary": "B",
-    "sharp": "H",
-    "fixed": "X",
-    "free": "M",
-    "locked": "L",
-    "kinds": "J",
-    "original": "O",
-}
 
 
 def open_and_know(qtbot, window, path):
@@ -25,11 +14,6 @@ def open_and_know(qtbot, window, path):
     open_and_wait(qtbot, window, path)
     qtbot.waitUntil(lambda: window.session.structure_finder.result is not None)
     window.refresh()
-
-
-def press_key(window, name):
-    """Press the key of a layer."""
-    key(window, getattr(Qt.Key, f"Key_{KEYS[name]}"))
 
 
 def press(box):

@@ -11,11 +11,10 @@ from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.picture.page import Page
 from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
 from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
-from hexmend_app.shell.start.program import application
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.state.mesh.structure import find_structure
-from tests.app.driving import heard_from, open_and_wait, tick
-from tests.app.features.structure.layers import count, pixels, press, press_key, texts
+from tests.app.driving import heard_from, key, open_and_wait, tick
+from tests.app.features.structure.layers import count, pixels, press, texts
 from tests.app.state.mesh.test_structure import tetrahedron
 from tests.core.curved_shell import curved_shell
 from tests.core.grids import displaced, grid
@@ -24,12 +23,12 @@ from tests.core.grids import displaced, grid
 def test_a_key_shows_and_hides_a_layer(five):
     before = pixels(five)
     box = five.features["structure"].panel.layers["irregular"].box
-    press_key(five, "irregular")
+    key(five, Qt.Key.Key_S)
     assert five.session.view.look.structure == Structure.of("irregular")
     assert box.isChecked()
     assert five.window_actions["show_irregular"].isChecked()
     assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
-    press_key(five, "irregular")
+    key(five, Qt.Key.Key_S)
     assert five.session.view.look == Look(page=Page(shading=False))
     np.testing.assert_array_equal(pixels(five), before)
 
@@ -65,6 +64,7 @@ def test_the_switch_is_on_for_hexes_with_mid_nodes_and_not_offered_for_others(op
     assert action.isChecked()
     assert parts(opened) == 64
     opened.show_panel("show")
+    assert texts(opened.features["structure"].panel, "curved") == ["27 hexes"]
     tick(box)
     assert not action.isChecked()
     assert parts(opened) == 1
@@ -84,14 +84,8 @@ def test_the_switch_is_on_for_hexes_with_mid_nodes_and_not_offered_for_others(op
 
 
 @pytest.fixture
-def panel(qtbot):
-    application()
-    panel = StructurePanel()
-    qtbot.addWidget(panel)
-    panel.resize(330, panel.sizeHint().height())
-    with qtbot.waitExposed(panel):
-        panel.show()
-    return panel
+def panel(shown):
+    return shown(StructurePanel(), 330)
 
 
 def test_layers_are_offered_before_their_contents_are_counted(panel):
@@ -128,21 +122,6 @@ def test_edges_are_counted_by_valence(panel):
     assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
 
 
-def test_curved_faces_are_offered_for_hexes_with_mid_nodes_alone(panel):
-    panel.set_curved(None)
-    assert not panel.layers["curved"].box.isVisible()
-    assert not panel.offered()["curved"]
-    mid_nodes = np.full((5, 19), -1)
-    mid_nodes[:3, :12] = 8
-    panel.set_curved(mid_nodes)
-    assert panel.layers["curved"].box.isVisible()
-    assert panel.layers["curved"].box.isChecked()
-    assert texts(panel, "curved") == ["3 hexes"]
-    heard = heard_from(panel.structure_changed)
-    press(panel.layers["curved"].box)
-    assert heard == [Structure().without("curved")]
-
-
 def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_found(find_structure(grid(2)))
     panel.set_nodes(26, 0, 1, 0)
@@ -166,17 +145,12 @@ def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
 # The structure of the open mesh is found in the background.
 
 
-def begin_searching(window):
-    """Not waited for: a small mesh's search may be over between two looks at it."""
-    window.session.structure_finder.search()
-    assert window.session.structure_finder.busy
-
-
 @pytest.mark.slow
 def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
     first, last = MeasuredMesh.of(gallery.make("five-side", size=30_000)), MeasuredMesh.of(grid(2))
     window.session.document.replace(first, None)
-    begin_searching(window)
+    window.session.structure_finder.search()  # not waited for: a small mesh's search may be over between two looks at it
+    assert window.session.structure_finder.busy
     window.session.document.replace(last, None)
     qtbot.waitUntil(lambda: window.session.structure_finder.result is not None)
     assert len(window.session.structure_finder.result.sharp) == 24
@@ -184,8 +158,8 @@ def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
 
 @pytest.mark.slow
 def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
-    press_key(five, "sharp")
-    press_key(five, "irregular")
+    key(five, Qt.Key.Key_H)
+    key(five, Qt.Key.Key_S)
     io.write(tmp_path / "cube.vtu", grid(3))
     open_and_wait(qtbot, five, tmp_path / "cube.vtu")
     assert five.session.structure_finder.result is None

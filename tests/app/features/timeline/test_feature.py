@@ -1,5 +1,6 @@
 """The timeline in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
@@ -141,13 +142,15 @@ def bar_of(window):
     return window.features["timeline"].panel.run_bar
 
 
-def test_a_run_is_started_paused_stepped_and_stopped_below_the_view(window, qtbot):
+def test_a_run_is_started_paused_stepped_stopped_and_reset_by_mouse(window, qtbot):
+    document, start = window.session.document, window.session.document.now
     choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
     bar = bar_of(window)
     assert bar.isVisible()
     assert bar.state == "Ready"
     press(bar.button("run"))
     qtbot.waitUntil(phase(window, Phase.RUNNING))
+    qtbot.waitUntil(lambda: document.now is not start)
     assert bar_of(window).state == "Running"
     assert bar.button("run").text() == "Pause"
     press(bar.button("run"))
@@ -160,6 +163,11 @@ def test_a_run_is_started_paused_stepped_and_stopped_below_the_view(window, qtbo
     press(bar_of(window).button("stop"))
     qtbot.waitUntil(phase(window, Phase.FINISHED))
     assert bar_of(window).state == "Stopped"
+    assert window.isWindowModified()
+    assert document.undo_title == "Local steepest descent"
+    click(window, "Reset")
+    np.testing.assert_array_equal(document.now.mesh.points, start.mesh.points)
+    assert document.undo_title == "reset"
 
 
 @pytest.mark.slow

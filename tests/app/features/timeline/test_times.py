@@ -3,10 +3,8 @@
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from hexmend import io
-from hexmend.io.formats.openfoam.foam_text import replaced_points
 from tests.app.driving import named, open_and_wait
-from tests.core.grids import grid
+from tests.app.state.tasks.test_time_reader import write_case
 
 pytestmark = pytest.mark.slow
 
@@ -14,14 +12,9 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def case(tmp_path):
     """Folder of a case with two times, and a damaged one between them."""
-    folder = tmp_path / "case"
-    io.write(folder / "case.foam", grid(3))
-    points = io.read(folder).points
-    for time in ("0.002", "0.01", "10"):
-        (folder / time / "polyMesh").mkdir(parents=True)
-        content = replaced_points(folder / "constant/polyMesh/points", points * (1, 1, 1 + float(time)))
-        (folder / time / "polyMesh/points").write_bytes(content if time != "0.01" else b"broken")
-    return folder
+    write_case(tmp_path / "case")
+    (tmp_path / "case/0.5/polyMesh/points").write_bytes(b"broken")
+    return tmp_path / "case"
 
 
 @pytest.fixture
@@ -44,4 +37,4 @@ def test_times_are_stepped_through_by_name(opened):
 
 def test_a_message_names_the_times_left_out(opened):
     assert opened.messages.title == "1 time of the case skipped"
-    assert opened.messages.text.startswith("t = 0.01: ")
+    assert opened.messages.text.startswith("t = 0.5: ")

@@ -153,15 +153,13 @@ def has(image, colour):
     return (np.asarray(image.convert("RGB")) == np.asarray(colour)).all(axis=2).sum() > 20
 
 
-def test_hexes_have_the_colour_of_their_material_and_inverted_ones_magenta():
+def test_hexes_have_the_colour_of_their_material():
     colours = measured(TWO)
     table = material_table(2)
     got = colours.of(np.arange(64))
     assert (got[LOW] == table[0]).all()
     assert (got[~LOW] == table[1]).all()
     assert colours.colouring.names == ("low", "a name of a mat…")
-    inverted = colours.colouring.colours(np.zeros(1), np.ones(1, bool))
-    assert tuple(inverted[0]) == INVERTED
 
 
 def test_thirty_materials_have_different_colours_and_none_is_that_of_inverted_hexes():

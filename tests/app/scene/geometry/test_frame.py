@@ -32,7 +32,6 @@ def watched(off_screen, monkeypatch):
         (viewport.mesh_layer, "rebuild"),
         (viewport.mesh_layer, "move"),
         (viewport.colours, "measure"),
-        (viewport.overlay_layers.outline, "_set_mesh"),
     ):
         watch(part, name)
 
@@ -42,13 +41,6 @@ def watched(off_screen, monkeypatch):
         return set(done)
 
     return draw, viewport
-
-
-def test_another_mesh_is_drawn_from_scratch(watched):
-    draw, _ = watched
-    assert draw(Frame(MESH, FIGURES)) == {"set_mesh", "_set_mesh", "rebuild", "measure"}
-    copy = Mesh(MESH.points, MESH.hexes)  # as when the same file is opened again
-    assert draw(Frame(copy, FIGURES)) == {"set_mesh", "_set_mesh", "rebuild", "measure"}
 
 
 def test_the_same_frame_costs_nothing(watched):

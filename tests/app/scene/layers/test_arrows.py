@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.quality import measure
-from hexmend_app.picture import Colours, Cut, CutStyle, LineStyle, Page, Range, Show
+from hexmend_app.picture import Colours, Cut, LineStyle, Page, Range, Show
 from hexmend_app.picture.appearance import Arrows, Look, Traces
 from hexmend_app.picture.displacement import Displacement, ReferenceState
 from hexmend_app.scene.geometry.frame import Frame
@@ -29,11 +29,6 @@ def viewport(off_screen):
     return viewport
 
 
-def counts(viewport):
-    """Return the numbers of arrows and of nodes that have moved."""
-    return viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved
-
-
 def move(viewport, points=NOW, figures=FIGURES):
     moved = MESH.with_points(points.copy())
     viewport.draw(Frame(moved, figures, Displacement(MESH, THEN, points, figures), viewport.frame.look))
@@ -54,21 +49,6 @@ def test_an_arrow_ends_at_the_end_of_its_path_and_the_length_of_its_head_is_limi
     assert np.linalg.norm(tips - (start + path)[:, None], axis=2).min(axis=1).max() < 1e-6
     head, length = np.linalg.norm(start + path - ends[:, 1], axis=1), np.linalg.norm(path, axis=1)
     assert (head <= np.minimum(0.25, length) + 1e-6).all()
-
-
-def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
-    move(viewport)
-    assert counts(viewport) == (0, 0)
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.ALL)))
-    every = int(MESH.free.sum())
-    assert counts(viewport) == (every, every)
-    look_at(viewport, Look(movement=Traces(arrows=Arrows.SIGHT)))
-    assert counts(viewport) == (0, 0)  # nodes of the boundary stay
-    for style in CutStyle:
-        look_at(viewport, Look(cut=Cut.at((1, 0, 0), (3.3, 3, 3), style), movement=Traces(arrows=Arrows.SIGHT)))
-        assert 0 < counts(viewport)[0] < every
-    move(viewport, MESH.points, THEN.quality)
-    assert counts(viewport) == (0, 0)
 
 
 def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport):

@@ -19,15 +19,6 @@ def magenta(image):
     return int((np.abs(share - np.array(INVERTED) / max(INVERTED)).max(axis=2) < 0.1).sum())
 
 
-def test_pixels_follow_the_points_and_come_back_with_them(seen):
-    viewport, pixels = seen
-    before = pixels()
-    show(viewport, MESH.with_points(MESH.points * 0.5))  # the colours stay
-    assert np.abs(pixels() - before).max() > 50
-    show(viewport, MESH)
-    np.testing.assert_array_equal(pixels(), before)
-
-
 def test_a_cut_through_nodes_is_closed(seen):
     viewport, pixels = seen
     show(viewport, look=Look(lines=LineStyle(edges=0.0)))

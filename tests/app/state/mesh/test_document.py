@@ -50,12 +50,6 @@ def test_changes_are_undone_and_redone(document):
     assert document.redo_title is None
 
 
-def test_a_preview_is_no_change(document, qtbot):
-    with qtbot.waitSignal(document.points_moved):
-        document.preview(moved(document.now, 0.01))
-    assert document.undo_title is None
-
-
 def test_reset_goes_back_to_the_opened_mesh_and_can_be_undone(document):
     start, other = document.now, moved(document.now, 0.01)
     document.reset()
@@ -188,13 +182,3 @@ def test_a_free_slot_is_reused_and_the_others_do_not_change(qtbot):
     assert [one.name for one in snapshots.all] == ["a", "see", "d"]
     snapshots.clear()
     assert not snapshots.all
-
-
-def test_only_changes_are_signalled(qtbot):
-    snapshots, counts = Snapshots(Document()), []
-    snapshots.changed.connect(lambda: counts.append(len(snapshots.all)))
-    snapshots.clear()
-    snapshots.add("a", STATE)
-    snapshots.remove(4)
-    snapshots.remove(0)
-    assert counts == [1, 0]

@@ -53,18 +53,6 @@ def test_a_row_without_a_figure_is_reported(path, key):
         session_data.read(path)
 
 
-def test_a_session_is_unchanged_by_reading_and_writing_it(path, tmp_path):
-    data = session_data.read(path)
-    (record,) = data.history.records
-    assert record.rows[-1]["iteration"] == 3
-    assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
-    session_data.write(tmp_path / "again.hexmend", data)
-    again = session_data.read(tmp_path / "again.hexmend")
-    assert again.history.records[0].rows == record.rows
-    assert again.history.records[0].advice.reason == record.advice.reason
-    np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
-
-
 # State parts of features: restored late, saved automatically, and of one mesh only.
 
 

@@ -28,10 +28,8 @@ def moved(points, time):
     return points @ np.array([[1 + time, 0, 0], [time, 1, 0], [0, 0, 1.0]])
 
 
-@pytest.fixture
-def case(tmp_path):
-    """Folder of a case of 27 hexes with three times."""
-    folder = tmp_path / "case"
+def write_case(folder):
+    """Write a case of 27 hexes with three times."""
     io.write(folder / "case.foam", grid(3))
     points = io.read(folder).points
     for time in TIMES:
@@ -39,7 +37,13 @@ def case(tmp_path):
         content = replaced_points(folder / "constant/polyMesh/points", moved(points, float(time)))
         (folder / time / "polyMesh/points").write_bytes(content)
     (folder / "0.7").mkdir()  # results alone
-    return folder
+
+
+@pytest.fixture
+def case(tmp_path):
+    """Folder of a case of 27 hexes with three times."""
+    write_case(tmp_path / "case")
+    return tmp_path / "case"
 
 
 @pytest.fixture

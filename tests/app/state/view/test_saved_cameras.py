@@ -13,7 +13,7 @@ from hexmend_app.picture.camera import cameras_of, merged
 from hexmend_app.state.mesh.document import Document, MeasuredMesh
 from hexmend_app.state.session import session_data
 from hexmend_app.state.view.saved_cameras import SavedCameras
-from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, SideViews, Snapshots, Wipe
+from hexmend_app.state.view.side_views import SideViews, Snapshots, Wipe
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -23,18 +23,6 @@ X, Y = Camera("+x"), Camera(position=(1.0, 2.0, 3.0), focal=(0.0, 0.0, 0.0), vie
 @pytest.fixture
 def cameras(qtbot):
     return SavedCameras()
-
-
-def test_a_camera_replaces_one_with_the_same_name(cameras):
-    changes = []
-    cameras.changed.connect(lambda: changes.append(dict(cameras.all)))
-    cameras.add("front", X)
-    cameras.add("side", X)
-    cameras.add("front", Y)
-    cameras.add("front", Y)
-    assert changes == [{"front": X}, {"front": X, "side": X}, {"front": Y, "side": X}]
-    cameras.remove("side")
-    assert cameras.all == {"front": Y}
 
 
 @pytest.mark.parametrize("name", ["", " front", "a\nb", "x" * 300])
@@ -124,25 +112,6 @@ def views(document):
 def states(document):
     mesh = document.now.mesh
     return [MeasuredMesh.of(mesh.with_points(mesh.points * scale)) for scale in (1.0, 2.0, 3.0, 4.0)]
-
-
-def test_there_are_at_most_three_side_views(views, states):
-    counts = []
-    views.changed.connect(lambda: counts.append(len(views.all)))
-    assert [views.show(str(k), state) for k, state in enumerate(states)] == [True, True, True, False]
-    assert counts == [1, 2, 3]
-    assert views.full
-    assert MAX_SIDE_VIEWS == 3
-    assert [views.shows(state) for state in states] == [True, True, True, False]
-
-
-def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, document):
-    for k, state in enumerate(states[:3]):
-        views.show(str(k), state)
-    views.close_view(2)
-    assert [view.name for view in views.all] == ["0", "2"]
-    document.replace(MeasuredMesh.of(gallery.make("cube", size=27)), None)
-    assert views.all == ()
 
 
 def test_a_wipe_needs_two_views_and_ends_with_the_second(views, states):
