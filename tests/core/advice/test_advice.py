@@ -124,6 +124,7 @@ def test_every_kind_of_suggestion_is_made_somewhere():
         smooth(tangled, "local-sd", SHORT),
         smooth(bridge, "laplacian", StoppingCriteria(keep_last=True)),
         smooth(bridge, "local-sd", SHORT),
+        smooth(bridge, "global-sd", StoppingCriteria(tolerance=1e-2)),
         smooth(bridge, "mend"),
         smooth(bridge, "mend", StoppingCriteria(max_iterations=8)),
         smooth(pinned_tangle(), "mend"),
