@@ -11,6 +11,7 @@ from hexmend import METHODS, Mesh, Stage, StoppingCriteria, gallery, io
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.tasks import mesh_change, mesh_saver
 from hexmend_app.state.tasks.task import running
+from hexmend_app.widgets.dialogs import questions
 from tests.app.driving import key, open_and_wait, open_mesh, phase, smooth, turn
 from tests.patience import PATIENCE
 
@@ -98,7 +99,8 @@ def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate
 @pytest.mark.slow
 @pytest.mark.parametrize("answer", ["wait", "do not wait", "cancel"])
 def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, monkeypatch, answer):
-    monkeypatch.setattr(QMessageBox, "exec", QDialog.exec)  # other tests answer at once
+    monkeypatch.setattr(QMessageBox, "exec", QDialog.exec)  # other tests answer at once, and wait without a dialog
+    monkeypatch.setattr(questions, "_DELAY", 1)
     session, writing = window.session, gate(mesh_saver, "write_as_given")
     session.commands.save_in_background(tmp_path / "out.vtu")
     qtbot.waitUntil(writing.reached.is_set)

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 from hexmend_app.picture import Camera, Scene, camera_from, write_scene
 from hexmend_app.picture.picture_metadata import read_metadata
-from tests.app.driving import open_and_wait
+from tests.app.driving import open_and_wait, write_picture
 
 
 @pytest.fixture
@@ -74,7 +74,7 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
     dialog.load(str(tmp_path / "more.toml"))
     assert list(dialog.scene().cameras) == [*saved, "top (2)", "left"]
-    assert export.picture(tmp_path / "p.png", (200, 150))
+    assert write_picture(window, tmp_path / "p.png", (200, 150))
     before = dict(cameras.all)
     assert read_metadata(tmp_path / "p.png").scene.cameras == before
     for name in before:
