@@ -31,7 +31,6 @@ FACES = MESH.topology.boundary_faces
 ENERGY = MeshEnergy(MESH)
 SKIN = SkinSurface(X, FACES)
 SLIDING = SlidingBoundary(MESH)
-SD = hx.LocalSteepestDescent()
 MATRIX = ENERGY.hessian(ENERGY.to_edge_units(X)).assembled()
 SLIDING_HESSIAN = projected_energy(SLIDING).hessian(ENERGY.to_edge_units(X))
 

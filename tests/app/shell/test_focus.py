@@ -5,14 +5,7 @@ from collections import Counter
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import (
-    QAbstractScrollArea,
-    QAbstractSpinBox,
-    QApplication,
-    QLabel,
-    QTabBar,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractScrollArea, QAbstractSpinBox, QApplication, QLabel, QTabBar, QWidget
 
 from hexmend_app.widgets.section import Section
 from tests.app.driving import choose_by_keys, named

@@ -15,15 +15,7 @@ from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.io.formats.vtk.pvtu_writer import PieceFiles, numbered
 from hexmend.io.slices import open_slices, slice_of
 from hexmend.mesh.orientation import MIRRORED_CORNERS
-from tests.core.ranks.test_ranks import (
-    ENVIRONMENT,
-    _descendants,
-    _words_of,
-    command,
-    figures,
-    needs_mpi,
-    on_ranks,
-)
+from tests.core.ranks.test_ranks import ENVIRONMENT, _descendants, _words_of, command, figures, needs_mpi, on_ranks
 
 OPTIONS = "--goal", "shape", "--tolerance", "1e-10"
 
