@@ -66,7 +66,7 @@ class ActionButton(QToolButton):
 
 
 class HoldButton(QToolButton):
-    """Tool button that keeps a checkable action checked while it is pressed.
+    """Tool button that keeps a checkable action checked while it is pressed, and looks pressed while that is checked.
 
     Parameters
     ----------
@@ -90,6 +90,7 @@ class HoldButton(QToolButton):
     def _show_action(self) -> None:
         action = self._action
         self.setEnabled(action.isEnabled())
+        self.setDown(action.isChecked())
         self.setIcon(action.icon())
         self.setText(action.iconText())
         self.setToolTip(action.toolTip())

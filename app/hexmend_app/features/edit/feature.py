@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.feature import Action, Feature
 from hexmend_app.state.mesh.document import MeasuredMesh
 from hexmend_app.translation import tr
 
 
 class FeatureEdit(Feature):
     """Undoes and redoes changes of the mesh, and shows the mesh before the last one."""
-
-    def __init__(self, host: Host):
-        super().__init__(host)
-        self._before: MeasuredMesh | None = None  # shown last by "Before"
-        self._after: MeasuredMesh | None = None  # shown when "Before" was switched on
 
     def actions(self) -> Iterable[Action]:
         """Yield undo and redo, whose texts name the change, and the comparison with the mesh before it."""
@@ -54,13 +49,9 @@ class FeatureEdit(Feature):
             tool=tr("Before"),
             momentary=True,
             handle=self._show_before,
-            checked=lambda: self._shows_before,
-            enabled=lambda: self._shows_before or self._state_before is not None,
+            checked=lambda: document.shows_before,
+            enabled=lambda: document.shows_before or self._state_before is not None,
         )
-
-    @property
-    def _shows_before(self) -> bool:
-        return self._before is not None and self._before is self.session.document.now
 
     @property
     def _state_before(self) -> MeasuredMesh | None:
@@ -74,13 +65,11 @@ class FeatureEdit(Feature):
         return document.previous
 
     def _show_before(self, on: bool) -> None:
-        document = self.session.document
-        if on and (before := self._state_before) is not None:
-            self._before, self._after = before, document.now
-            document.preview(before)
-        elif not on and self._shows_before:
-            document.preview(self._after)
-            self._before = self._after = None
+        before = self._state_before
+        if not on:
+            self.session.document.end_before()
+        elif before is not None:
+            self.session.document.show_before(before)
 
     @property
     def _undo_title(self) -> str | None:

@@ -161,6 +161,7 @@ class Document(QObject):
         self.now: MeasuredMesh | None = None
         self._changes: list[Change] = []
         self._at = 0
+        self._before_and_after: tuple[MeasuredMesh, MeasuredMesh] | None = None
         self._saved: MeasuredMesh | None = None
         self._files: dict[Path, Mesh] = {}
         self.journal: WeakKeyDictionary[MeasuredMesh, Command] = WeakKeyDictionary()
@@ -210,6 +211,22 @@ class Document(QObject):
         """Show a state without recording a change."""
         self.now = state
         self.points_moved.emit()
+
+    def show_before(self, before: MeasuredMesh) -> None:
+        """Show an earlier state until `end_before`, which every change of the mesh and every save call first."""
+        self._before_and_after = before, self.now
+        self.preview(before)
+
+    @property
+    def shows_before(self) -> bool:
+        """True while the earlier state of `show_before` is shown."""
+        return self._before_and_after is not None and self._before_and_after[0] is self.now
+
+    def end_before(self) -> None:
+        """Show again what was shown before `show_before`, unless something else is shown meanwhile."""
+        if self.shows_before:
+            self.preview(self._before_and_after[1])
+        self._before_and_after = None
 
     @property
     def previews(self) -> bool:

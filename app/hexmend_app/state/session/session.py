@@ -171,8 +171,9 @@ class Session(QObject):
         return self.document.modified or (is_session and self.saved_cameras.modified)
 
     def end_previews(self) -> None:
-        """End a sweep node by node, and with it the preview of its intermediate state."""
+        """End a sweep node by node, with the preview of its intermediate state, and the look at an earlier state."""
         self.node_sweep.leave()
+        self.document.end_before()
 
     def to_data(self) -> SessionData:
         """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
