@@ -66,10 +66,11 @@ class Skin:
     def __init__(self, mesh: Mesh):
         self._hexes = mesh.elements
         self._neighbours = mesh.topology.face_neighbours
-        if mesh.n_elements > mesh.n_hexes:  # quads between a cell and two triangles are always drawn
-            closed = self._neighbours == np.arange(mesh.n_elements)[:, None]
-            closed &= cell_faces(mesh.elements)[:, :, 0] >= 0
-            self._neighbours = np.where(closed, np.int32(-1), self._neighbours)
+        cells, faces = np.nonzero(self._neighbours == np.arange(mesh.n_elements)[:, None])
+        exist = cell_faces(mesh.elements[cells])[np.arange(len(cells)), faces, 0] >= 0
+        if exist.any():  # faces that several others cover are always drawn
+            self._neighbours = self._neighbours.copy()
+            self._neighbours[cells[exist], faces[exist]] = -1
         self._all = np.ones(mesh.n_elements, dtype=bool)
         self._n_nodes = mesh.n_nodes
 

@@ -17,6 +17,7 @@ from hexmend_app.scene.geometry.occlusion import ambient_light, directions
 from hexmend_app.scene.geometry.polygons import Polygons
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
+from tests.core.refined_meshes import refined
 from tests.core.solid_lattices import mixed
 from tests.core.threads import by_threads
 
@@ -26,6 +27,14 @@ SIZES = st.tuples(*[st.integers(1, 4)] * 3)
 def visible_faces(mesh, keep):
     faces = Skin(mesh).visible(keep)
     return faces, faces.nodes[faces.quads]
+
+
+def test_a_face_towards_refined_hexes_is_visible_where_they_are_hidden():
+    mesh = refined(grid(2, 1, 1), np.array([False, True]))
+    coarse = np.arange(mesh.n_hexes) == 0
+    _, quads = visible_faces(mesh, coarse)
+    assert {frozenset(quad) for quad in quads.tolist()} == {frozenset(mesh.hexes[0][face].tolist()) for face in FACES}
+    assert len(visible_faces(mesh, ~coarse)[1]) == 24
 
 
 @given(SIZES)
