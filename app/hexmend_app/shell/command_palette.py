@@ -162,7 +162,7 @@ def choice_entries(session: Session) -> Iterator[QAction]:
 
 
 #: Words of names for words that other programs use.
-_SYNONYMS = {
+SYNONYMS = {
     "animation": "film",
     "bad": "worst",
     "clip": "cut",
@@ -171,14 +171,18 @@ _SYNONYMS = {
     "distance": "measure",
     "exit": "quit",
     "export": "save",
-    "font": "picture",
+    "dark": "theme",
+    "font": "letters",
     "gif": "film",
     "hotkeys": "keys",
     "image": "picture",
     "load": "open",
     "movie": "film",
-    "night": "dark",
+    "light": "theme",
+    "night": "theme",
     "optimise": "mend",
+    "options": "settings",
+    "preferences": "settings",
     "relax": "smooth",
     "revert": "undo",
     "ruler": "measure",
@@ -196,7 +200,7 @@ _LEAST_LETTERS = 3
 
 def _meant(word: str) -> str:
     """Return the word of names for a word of other programs, of which the first letters are enough."""
-    known = (name for other, name in _SYNONYMS.items() if len(word) >= _LEAST_LETTERS and other.startswith(word))
+    known = (name for other, name in SYNONYMS.items() if len(word) >= _LEAST_LETTERS and other.startswith(word))
     return next(known, word)
 
 

@@ -12,6 +12,7 @@ from hexmend import METHODS, Mesh, Stage, StoppingCriteria, io
 from hexmend_app.feature import MENUS
 from hexmend_app.picture import Box, Cut, Plane
 from hexmend_app.shell import window as shell_window
+from hexmend_app.shell.command_palette import SYNONYMS, choice_entries, command_entries, name_of, ranked
 from hexmend_app.state.mesh.document import MeasuredMesh
 from scripts.write_keys import as_markdown
 from tests.app.driving import LEFT, key, move, open_mesh, pixels
@@ -104,6 +105,12 @@ def test_every_action_has_a_known_menu_and_help(window):
     assert {one.menu for one in declared} <= {"", *MENUS}
     for one in declared:
         assert one.help.endswith("."), one.id
+
+
+def test_words_of_other_programs_find_a_command(window):
+    entries = [*command_entries(window.window_actions), *choice_entries(window.session)]
+    assert [word for word in SYNONYMS if not ranked(entries, word)] == []
+    assert "picture" in name_of(ranked(entries, "screensh")[0]).lower()
 
 
 def test_docs_keys_match_the_declared_actions(window):
