@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.arrays import mask
 from hexmend.boundary import boundary_of
 from hexmend.errors import MeshError
-from hexmend.layers.walls import WEDGE, Layers, lateral_lengths, layers_of_columns, nodes_of_faces, walk_columns
+from hexmend.layers.walls import WEDGES, Layers, lateral_lengths, layers_of_columns, nodes_of_faces, walk_columns
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 from hexmend.mesh.solid_cells import kinds_of
@@ -97,7 +97,7 @@ def _faces_of_columns(mesh: Mesh) -> tuple[np.ndarray, ...]:
     cells, faces = np.nonzero(given < 0)
     if not kinds.any():
         return given, np.arange(len(cells)), cells, faces
-    wedges, own = kinds == WEDGE, np.arange(len(kinds), dtype=np.int32)[:, None]
+    wedges, own = kinds == WEDGES, np.arange(len(kinds), dtype=np.int32)[:, None]
     neighbours = np.where(kinds[:, None] == 0, given, own)
     neighbours[wedges, 4:] = given[wedges, :2]
     at = np.flatnonzero((kinds[cells] == 0) | wedges[cells] & (faces < 2))
@@ -118,7 +118,7 @@ def sizes_at_wall(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> tuple[np.
     x = mesh.points[nodes_of_faces(mesh.elements, hexes, faces)]
     area = np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1) / 2
     side = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
-    ideal = np.where(kinds_of(mesh.elements[hexes]) == WEDGE, np.sqrt(3) / 4, 1.0)  # volume
+    ideal = np.where(kinds_of(mesh.elements[hexes]) == WEDGES, np.sqrt(3) / 4, 1.0)  # volume
     return ideal * corner_determinants(mesh.points, mesh.elements, hexes).mean(axis=1), area, side
 
 

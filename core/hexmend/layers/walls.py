@@ -9,18 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh.solid_cells import face_nodes, kinds_of
+from hexmend.mesh.solid_cells import SOLID_KINDS, WEDGE, face_nodes, kinds_of
 from hexmend.terminal_text import listed
 
 #: Ratio of successive heights, up or down, beyond which a column ends. Boundary layers grow by 1.05 to 2.
 GREATEST_RATIO = 2.5
 #: Number of the kind of wedges.
-WEDGE = 1
+WEDGES = SOLID_KINDS.index(WEDGE)
 
 
 def nodes_of_faces(elements: np.ndarray, cells: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Nodes of faces through which columns go, (k, 4): of hexes, and 4 and 5 for the triangles of wedges."""
-    return face_nodes(elements, cells, faces - 4 * (kinds_of(elements[cells]) == WEDGE))
+    return face_nodes(elements, cells, faces - 4 * (kinds_of(elements[cells]) == WEDGES))
 
 
 def lateral_lengths(lengths: np.ndarray, faces: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
@@ -81,9 +81,8 @@ def walk_columns(
         side = meets.argmax(axis=1).astype(np.int8)
         ratio = lengths[following, side // 2] / lengths[current, entry // 2]
         flat = lengths[following, side // 2] < lateral_lengths(lengths[following], side, neighbours[following])
-        continues = (
-            (following >= 0) & (following != current) & (meets.sum(axis=1) == 1)
-        )  # a column returns only through hexes that meet twice
+        # A column returns only through hexes that meet twice.
+        continues = (following >= 0) & (following != current) & (meets.sum(axis=1) == 1)
         continues &= flat & (ratio <= GREATEST_RATIO) & (ratio >= 1 / GREATEST_RATIO)
         active, current, entry = active[continues], following[continues], side[continues]
         if active.size:

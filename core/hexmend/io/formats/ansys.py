@@ -181,8 +181,6 @@ register(
     read=read,
     capabilities=frozenset(Capability) - {Capability.NODE_DATA, Capability.HEX_DATA, Capability.FIELD_DATA},
     exact=False,  # a field of a coordinate has 16 to 21 columns
-    matches=lambda head: (
-        re.search(rb"^[ \t]*(?:/PREP7|NBLOCK|/COM,ANSYS)", head, re.MULTILINE | re.IGNORECASE) is not None
-    ),
+    matches=lambda head: _FIRST.search(head) is not None,
     locate=locate,
 )

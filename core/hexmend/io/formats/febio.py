@@ -135,8 +135,6 @@ register(
     encodings=(),
     read=read,
     capabilities=frozenset(Capability) - {Capability.NODE_DATA, Capability.HEX_DATA, Capability.FIELD_DATA},
-    matches=lambda head: (
-        re.match(rb"\s*(?:<\?xml[^>]*>\s*)?(?:<!--.*?-->\s*)*<febio_spec", head, re.DOTALL) is not None
-    ),
+    matches=lambda head: _FIRST.match(head) is not None,
     locate=locate,
 )
