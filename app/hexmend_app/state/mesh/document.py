@@ -200,7 +200,7 @@ class Document(QObject):
         self.path, self.target = path, None
         self.now = state
         self._changes = [Change("open", state)]
-        self._at, self._saved = 0, state
+        self._at, self._saved, self._before_and_after = 0, state, None
         self._files = {} if path is None else {path: state.mesh}
         if path is not None:
             self.journal[state] = Command("read", values=(str(path.absolute()),))
